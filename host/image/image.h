@@ -1,0 +1,38 @@
+// Images in memory and the interface to the library that reads and writes them. OpenImageIO costs 260
+// shared objects at start-up, so it lives behind dlopen: only commands that touch images pay.
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace pellucid {
+
+using MetaValue = std::variant<int, float, std::string, std::vector<float>>;  ///< 16 floats = matrix
+
+/// Float image, row-major, channels interleaved: data[(y * width + x) * channels.size() + c].
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;  ///< e.g. {"R","G","B","variance.R",...}
+  std::vector<float> data;
+  std::map<std::string, MetaValue> metadata;  ///< e.g. "samplesPerPixel", "pellucid:seed"
+
+  /// Index of a channel, or -1.
+  int channel(const std::string& name) const {
+    for (size_t i = 0; i < channels.size(); ++i)
+      if (channels[i] == name) return static_cast<int>(i);
+    return -1;
+  }
+};
+
+/// Reads any format the image library knows, all channels as float32 (8-bit files: stored value/255,
+/// no linearisation unless `linearise`). Throws InputError naming the file and the reason.
+Image read_image(const std::string& path, bool linearise = false);
+
+/// Writes by suffix: .exr (float32, ZIP, all channels and metadata), .png (8 bit; data must already be
+/// display-referred in [0,1], clipped otherwise), others as the library can. Atomic: a temporary name
+/// in the same folder, then rename. Throws OutputError naming the file and the reason.
+void write_image(const std::string& path, const Image& image);
+
+}  // namespace pellucid

@@ -1,0 +1,24 @@
+// Error of one image against a reference. Non-finite values are counted first and never averaged.
+#pragma once
+
+#include <cstdint>
+
+#include "image/image.h"
+
+namespace pellucid {
+
+/// All errors are means over pixels and the R,G,B channels (or the one channel of grey images), taken
+/// in double.
+struct ImageError {
+  std::uint64_t nonfinite = 0;  ///< pixels with a NaN or Inf in either image; if > 0 the rest is NaN
+  double mse = 0, rmse = 0;
+  double relmse = 0;        ///< mean (a-b)^2/(b^2+e^2), e = 1 % of the mean of the reference b
+  double smape = 0;         ///< mean 2|a-b|/(|a|+|b|+e)
+  double energy_ratio = 0;  ///< sum a / sum b
+  double p95_tile_relmse = 0;  ///< 95th percentile of relMSE over 16x16 tiles
+};
+
+/// Throws InputError if the sizes or colour channels differ.
+ImageError compare_images(const Image& a, const Image& reference);
+
+}  // namespace pellucid

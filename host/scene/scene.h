@@ -1,0 +1,112 @@
+// The scene in human units: what a scene file says, after checks and with all shapes in world space.
+// No OpenCL, no file formats here. Right-handed world, colours linear Rec.709.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace pellucid {
+
+using Rgb = glm::dvec3;  ///< linear Rec.709
+
+/// How a surface scatters. Only the fields named beside a kind are read for it.
+enum class MaterialKind {
+  diffuse,     ///< Lambert: reflectance
+  mirror,      ///< perfect mirror: reflectance
+  dielectric,  ///< Fresnel glass: ior (inside over outside), alpha (0 = smooth)
+  conductor,   ///< GGX metal: eta, k, alpha (0 = smooth)
+  phong,       ///< modified Phong: reflectance (diffuse) + specular * (n+2)/(2 pi) cos^n
+};
+
+struct Material {
+  std::string name;
+  MaterialKind kind = MaterialKind::diffuse;
+  Rgb reflectance{0.5};
+  Rgb specular{0.0};       ///< Phong: hemispherical strength of the glossy lobe at normal incidence
+  double exponent = 1.0;   ///< Phong exponent n >= 0
+  double ior = 1.5;        ///< dielectric, index of the inside over the outside, > 0
+  double alpha = 0.0;      ///< GGX width in [0, 1]; alpha = roughness^2
+  Rgb eta{0.0}, k{0.0};    ///< conductor: complex index of refraction per channel
+};
+
+/// Light that a surface gives off, the same in all directions of the emitting side(s).
+struct Emission {
+  Rgb radiance{1.0};  ///< W/(m^2 sr) per channel, >= 0
+  int sides = 1;      ///< 1: the side the geometric normal points to; 2: both
+};
+
+/// Triangles in world space. `normals` is empty (flat) or has one unit vector per position.
+/// Front side: vertices counter-clockwise, so Ng = normalize((p1-p0) x (p2-p0)).
+struct Mesh {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;
+  std::vector<glm::uvec3> triangles;
+};
+struct Sphere {  ///< normal points outwards
+  glm::dvec3 center{0.0};
+  double radius = 1.0;
+};
+struct Disk {
+  glm::dvec3 center{0.0};
+  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit; the front side
+  double radius = 1.0;
+};
+
+/// One surface with one material. Rectangles, cubes and generated shapes arrive here as meshes.
+struct Shape {
+  std::string name;
+  int material = 0;                  ///< index into Scene::materials
+  int sides = 2;                     ///< opaque surfaces: 1 = black (but blocking) from behind
+  std::optional<Emission> emission;  ///< absent: not a light
+  std::variant<Mesh, Sphere, Disk> geometry;
+};
+
+struct PointLight {
+  glm::dvec3 position{0.0};
+  Rgb intensity{1.0};  ///< W/sr per channel
+};
+struct DirectionalLight {
+  glm::dvec3 direction{0.0, -1.0, 0.0};  ///< unit, the way light travels
+  Rgb irradiance{1.0};                   ///< W/m^2 on a plane facing the light
+};
+struct ConstantEnvironment {
+  Rgb radiance{1.0};  ///< the same from all directions
+};
+using Light = std::variant<PointLight, DirectionalLight, ConstantEnvironment>;
+
+enum class FovAxis { x, y, smaller, larger };
+
+/// Pinhole camera. right, up, forward are unit and orthogonal; image x grows to the right, image y
+/// downwards.
+struct Camera {
+  glm::dvec3 origin{0.0};
+  glm::dvec3 right{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0}, forward{0.0, 0.0, -1.0};
+  double fov = 45.0;  ///< full angle in degrees along fov_axis, in (0, 180)
+  FovAxis fov_axis = FovAxis::x;
+};
+
+/// What the scene file asks for; flags of the command line win over it.
+struct RenderSettings {
+  int width = 512, height = 512;
+  std::optional<int> spp;
+  std::optional<int> max_depth;           ///< segments; absent = unlimited
+  std::optional<std::string> integrator;  ///< a name from the table of integrators
+};
+
+struct Scene {
+  std::string name;            ///< file name without folder and suffix
+  std::string path;            ///< as opened
+  std::string description;     ///< the file's "description": why the scene is here
+  Camera camera;
+  RenderSettings settings;
+  std::vector<Material> materials;
+  std::vector<Shape> shapes;
+  std::vector<Light> lights;
+  std::vector<std::string> warnings;  ///< what was asked for and is not there yet, once per kind
+  std::vector<std::string> files;     ///< every file read, for the identity hash
+};
+
+}  // namespace pellucid
