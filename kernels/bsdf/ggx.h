@@ -1,0 +1,36 @@
+// GGX microfacets with height-correlated Smith masking and sampling of visible normals. Tangent forms
+// throughout: 1 - cos^2 would lose the whole lobe in float at small alpha (numerics 12).
+#ifndef PELLUCID_BSDF_GGX_H
+#define PELLUCID_BSDF_GGX_H
+
+#include "bsdf/lobe.h"
+
+/// D(h) [1/sr] for a unit h with h.z > 0 [Walter07 eq. 33].
+INLINE real ggx_d(real3 h, real alpha) {
+  real z2 = h.z * h.z;
+  real a2 = alpha * alpha;
+  real t = (h.x * h.x + h.y * h.y) / (a2 * z2);
+  real k = z2 * (REAL(1.0) + t);
+  return INV_PI / (a2 * k * k);
+}
+/// sqrt(1 + alpha^2 tan^2): G1 = 2 / (1 + s), correlated G2 = 2 / (s_o + s_i) [Heitz14 eq. 72, 99].
+INLINE real ggx_s(real3 w, real alpha) {
+  return r_sqrt(REAL(1.0) + alpha * alpha * (w.x * w.x + w.y * w.y) / (w.z * w.z));
+}
+
+/// Visible normal for wo (wo.z > 0), density G1 max(0, wo.h) D / wo.z [Heitz18].
+INLINE real3 ggx_sample_visible(real3 wo, real alpha, real u, real v) {
+  real3 vh = normalize3(REAL3(alpha * wo.x, alpha * wo.y, wo.z));
+  real len2 = vh.x * vh.x + vh.y * vh.y;
+  real inv = len2 > REAL(0.0) ? REAL(1.0) / r_sqrt(len2) : REAL(0.0);
+  real3 t1 = len2 > REAL(0.0) ? REAL3(-vh.y * inv, vh.x * inv, 0.0f) : REAL3(1.0f, 0.0f, 0.0f);
+  real3 t2 = cross3(vh, t1);
+  real3 disk = warp_disk(u, v);
+  real s = REAL(0.5) * (REAL(1.0) + vh.z);
+  real y = (REAL(1.0) - s) * safe_sqrt(REAL(1.0) - disk.x * disk.x) + s * disk.y;
+  real z = safe_sqrt(REAL(1.0) - disk.x * disk.x - y * y);
+  real3 n = t1 * disk.x + t2 * y + vh * z;
+  return normalize3(REAL3(alpha * n.x, alpha * n.y, r_max(n.z, REAL(1e-7))));
+}
+
+#endif

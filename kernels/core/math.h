@@ -1,0 +1,101 @@
+// Functions of our own where the device library is slow (PoCL's scalar pow takes 130 ns) or differs
+// between devices. Float: polynomials, errors in ulps stated and tested against double. In the double
+// twin they are the standard library's.
+#ifndef PELLUCID_CORE_MATH_H
+#define PELLUCID_CORE_MATH_H
+
+#include "core/real.h"
+
+#define PI REAL(3.14159265358979323846)
+#define TWO_PI REAL(6.28318530717958647692)
+#define INV_PI REAL(0.31830988618379067154)
+#define INV_TWO_PI REAL(0.15915494309189533577)
+#define INV_FOUR_PI REAL(0.07957747154594766788)
+
+typedef struct SinCos {
+  real s, c;
+} SinCos;
+
+#if PELLUCID_DEVICE || defined(PELLUCID_REAL_IS_FLOAT)
+
+/// sin and cos of 2 pi u for u in [0, 1], to 1.5 ulp of 1: quadrant in exact arithmetic, then Taylor-like
+/// polynomials on [-pi/4, pi/4].
+INLINE SinCos sincos_2pi(float u) {
+  int quadrant = (int)(u * 4.0f + 0.5f);
+  float a = (u - 0.25f * (float)quadrant) * 6.28318530717958647692f;
+  float a2 = a * a;
+  float s = a + a * a2 * r_fma(a2, r_fma(a2, r_fma(a2, 2.6083159809786593541503e-06f,
+                                                   -1.981069071916863322258e-04f),
+                                         8.333078585565090179443e-03f),
+                               -1.666665971279144287109e-01f);
+  float c = 1.0f + a2 * r_fma(a2, r_fma(a2, r_fma(a2, 2.443315711809948e-05f,
+                                                  -1.388731625493765e-03f),
+                                        4.166664568298827e-02f),
+                              -0.5f);
+  SinCos r;
+  int odd = quadrant & 1;
+  float x = odd ? c : s, y = odd ? s : c;
+  r.s = (quadrant & 2) ? -x : x;
+  r.c = ((quadrant + 1) & 2) ? -y : y;
+  return r;
+}
+
+/// log2 of a normal positive float, absolute error below 2^-23 near 1 and 1 ulp elsewhere. The result
+/// comes as high + low so that pow keeps its digits.
+INLINE float log2_split(float x, PRIVATE float* low) {
+  uint bits = real_bits(x);
+  int e = (int)((bits - 0x3f3504f3u) >> 23);  // mantissa into [sqrt(1/2), sqrt(2))
+  e = (bits < 0x3f3504f3u) ? e - 512 : e;
+  float m = real_from_bits(bits - ((uint)e << 23));
+  float f = (m - 1.0f) / (m + 1.0f);  // |f| < 0.1716
+  float f2 = f * f;
+  // log2(m) = 2/ln2 (f + f^3/3 + f^5/5 + ...); the leading term keeps its rounding error in `low`.
+  float lead = 2.885390043258667f * f;
+  float lead_low = r_fma(2.885390043258667f, f, -lead) + 3.851925e-8f * f;
+  float f_error = r_fma(-f, m + 1.0f, m - 1.0f) / (m + 1.0f);
+  float tail = f * f2 * r_fma(f2, r_fma(f2, r_fma(f2, 0.32059889f, 0.41219858f), 0.57707802f),
+                              0.96179669f);
+  float fe = (float)e;
+  float sum = fe + lead;
+  *low = ((fe - sum) + lead) + (lead_low + 2.8853900f * f_error + tail);
+  return sum;
+}
+
+/// 2^x for x in [-126, 127], 1 ulp; below it 0, above it clipped to 2^127.
+INLINE float exp2_split(float x, float low) {
+  if (x < -126.0f) return 0.0f;
+  x = r_min(x, 127.0f);
+  int i = (int)(x + (x < 0.0f ? -0.5f : 0.5f));
+  float f = (x - (float)i) + low;  // [-0.5, 0.5]
+  float p = r_fma(f, 1.5252733804e-5f, 1.5403530394e-4f);
+  p = r_fma(f, p, 1.3333558146e-3f);
+  p = r_fma(f, p, 9.6181291076e-3f);
+  p = r_fma(f, p, 5.5504108665e-2f);
+  p = r_fma(f, p, 2.4022650696e-1f);
+  p = r_fma(f, p, 6.9314718056e-1f);
+  p = r_fma(f, p, 1.0f);
+  return p * real_from_bits((uint)(i + 127) << 23);
+}
+
+/// x^y for x in [0, 1] and y >= 0 (0^0 = 1), to 4 ulp where the result is a normal number.
+INLINE float pow_unit(float x, float y) {
+  if (y == 0.0f) return 1.0f;
+  if (x < 1.17549435e-38f) return 0.0f;
+  float low;
+  float high = log2_split(x, &low);
+  float p = high * y;
+  float p_low = r_fma(high, y, -p) + low * y;
+  return exp2_split(p, p_low);
+}
+
+#else
+
+INLINE SinCos sincos_2pi(real u) {
+  SinCos r = {std::sin(TWO_PI * u), std::cos(TWO_PI * u)};
+  return r;
+}
+INLINE real pow_unit(real x, real y) { return std::pow(x, y); }
+
+#endif
+
+#endif

@@ -1,0 +1,27 @@
+// Rays, hits, and where a spawned ray may start.
+#ifndef PELLUCID_GEOM_RAY_H
+#define PELLUCID_GEOM_RAY_H
+
+#include "core/real.h"
+#include "shared/layout.h"
+#include "shared/limits.h"
+
+typedef struct Ray {
+  real3 o;     // world units
+  real3 d;     // unit
+  real t_max;  // hits lie in (0, t_max]
+} Ray;
+
+typedef struct Hit {
+  real t;       // distance along the ray
+  real b1, b2;  // triangle: weights of v1 and v2; quadric: 0
+  uint prim;    // primitive id, or NONE
+} Hit;
+
+/// Start of a ray that leaves the surface point p along w: p moved by `offset` (an error bound along
+/// the geometric normal, see Surface) to the side of w. No absolute epsilon.
+INLINE real3 spawn_origin(real3 p, real3 ng, real offset, real3 w) {
+  return p + ng * (dot3(ng, w) < REAL(0.0) ? -offset : offset);
+}
+
+#endif

@@ -1,0 +1,93 @@
+// What a hit means: position with its error bound, normals, material and light.
+#ifndef PELLUCID_GEOM_SURFACE_H
+#define PELLUCID_GEOM_SURFACE_H
+
+#include "geom/bvh_traverse.h"
+
+typedef struct Surface {
+  real3 p;       // world; on the surface up to `offset`
+  real3 ng;      // unit geometric normal, front side
+  real3 ns;      // unit shading normal, unflipped
+  real offset;   // distance along ng that surely clears the rounding error of p
+  uint material;
+  uint flags;    // SHAPE_*
+  uint light;    // index of the light this primitive is, or NONE
+} Surface;
+
+/// Sphere: point and error from its outward normal.
+INLINE void sphere_point(F4 center_radius, real3 n, PRIVATE Surface* s) {
+  real3 c = load3(center_radius);
+  real r = (real)center_radius.w;
+  s->p = c + n * r;
+  s->ng = s->ns = n;
+  real3 bound = abs3(c) + abs3(n) * r + r;  // n itself is off by a few roundoffs of 1, hence + r
+  s->offset = (real)(POINT_ERROR_ULPS * UNIT_ROUNDOFF) * dot3(abs3(n), bound);
+}
+
+/// Disk: `p` pulled onto the plane.
+INLINE void disk_point(Quadric q, real3 p, PRIVATE Surface* s) {
+  real3 c = load3(q.center_radius);
+  s->ng = s->ns = load3(q.normal);
+  s->p = p - s->ng * dot3(p - c, s->ng);
+  real3 bound = abs3(c) + abs3(s->p) + (real)q.center_radius.w;
+  s->offset = (real)(POINT_ERROR_ULPS * UNIT_ROUNDOFF) * dot3(abs3(s->ng), bound);
+}
+
+/// Triangle: point rebuilt from barycentrics, which is far more accurate than o + t d; its error is
+/// bounded by POINT_ERROR_ULPS roundoffs of sum |b_i v_i| per axis, projected on the normal [PBRT4 6.8].
+INLINE void triangle_point(PRIVATE const SceneData* scene, Triangle tri, real b1, real b2,
+                           PRIVATE Surface* s) {
+  real3 v0 = load3(scene->positions[tri.v0]);
+  real3 v1 = load3(scene->positions[tri.v1]);
+  real3 v2 = load3(scene->positions[tri.v2]);
+  real b0 = REAL(1.0) - b1 - b2;
+  s->p = v0 * b0 + v1 * b1 + v2 * b2;
+  s->ng = normalize3(cross3(v1 - v0, v2 - v0));
+  s->ns = s->ng;
+  real3 bound = abs3(v0 * b0) + abs3(v1 * b1) + abs3(v2 * b2);
+  s->offset = (real)(POINT_ERROR_ULPS * UNIT_ROUNDOFF) * dot3(abs3(s->ng), bound);
+#if FEAT_SMOOTH_NORMALS
+  if (s->flags & SHAPE_SMOOTH) {
+    real3 n = load3(scene->normals[tri.v0]) * b0 + load3(scene->normals[tri.v1]) * b1 +
+              load3(scene->normals[tri.v2]) * b2;
+    real len2 = dot3(n, n);
+    if (len2 > REAL(0.0)) s->ns = n * (REAL(1.0) / r_sqrt(len2));
+  }
+#endif
+}
+
+/// Fills shape, material and light of primitive `prim`; returns its shape index's record.
+INLINE void surface_shape(PRIVATE const SceneData* scene, uint shape_index, uint prim,
+                          PRIVATE Surface* s) {
+  Shape shape = scene->shapes[shape_index];
+  s->material = shape.material;
+  s->flags = shape.flags;
+  s->light = shape.first_light == NONE ? NONE : shape.first_light + (prim - shape.first_prim);
+}
+
+/// The surface at a hit of `ray` (hit.prim != NONE).
+INLINE Surface surface_at(PRIVATE const SceneData* scene, Ray ray, Hit hit) {
+  Surface s;
+#if FEAT_SPHERES || FEAT_DISKS
+  if (hit.prim >= scene->info.triangle_count) {
+    Quadric q = scene->quadrics[hit.prim - scene->info.triangle_count];
+    surface_shape(scene, q.shape, hit.prim, &s);
+    real3 c = load3(q.center_radius);
+    real3 p = ray.o + ray.d * hit.t;
+    if (q.kind == QUADRIC_SPHERE) {
+      sphere_point(q.center_radius, normalize3(p - c), &s);
+    } else {
+      disk_point(q, p, &s);
+    }
+    return s;
+  }
+#endif
+#if FEAT_TRIANGLES
+  Triangle tri = scene->triangles[hit.prim];
+  surface_shape(scene, tri.shape, hit.prim, &s);
+  triangle_point(scene, tri, hit.b1, hit.b2, &s);
+#endif
+  return s;
+}
+
+#endif

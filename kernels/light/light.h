@@ -1,0 +1,208 @@
+// Lights: pick one, sample a direction towards it, and the density of that for a direction found by
+// chance. Sampling and density share their formulas, so MIS weights add up.
+#ifndef PELLUCID_LIGHT_LIGHT_H
+#define PELLUCID_LIGHT_LIGHT_H
+
+#include "core/frame.h"
+#include "core/warp.h"
+#include "geom/surface.h"
+
+/// One light sample as seen from a point.
+typedef struct LightSample {
+  real3 wi;        // unit, from the point to the light
+  real3 target;    // end of the shadow ray (offset from the light's surface), if not at infinity
+  real3 radiance;  // radiance; for delta lights irradiance on a plane facing the light
+  real pdf_w;      // [1/sr] pick included; delta lights: the probability of the pick
+  int delta;       // point or directional: cannot be found by chance
+  int at_infinity; // shadow ray goes on without end
+} LightSample;
+
+/// Radiance that the surface gives off along w (unit, away from it).
+INLINE real3 light_emitted(PRIVATE const SceneData* scene, PRIVATE const Surface* s, real3 w) {
+  uint side = dot3(s->ng, w) > REAL(0.0) ? SHAPE_EMIT_FRONT : SHAPE_EMIT_BACK;
+  if (s->light == NONE || !(s->flags & side)) return REAL3(0.0f, 0.0f, 0.0f);
+  return load3(scene->lights[s->light].value);
+}
+
+/// Light chosen by an alias table [Walker77]: slot from u, then the slot's own light or its alias.
+INLINE uint light_pick(PRIVATE const SceneData* scene, real u) {
+  real scaled = u * (real)scene->info.light_count;
+  uint slot = (uint)scaled;
+  slot = slot < scene->info.light_count ? slot : scene->info.light_count - 1u;
+  return scaled - (real)slot < (real)scene->lights[slot].value.w ? slot : scene->lights[slot].alias;
+}
+
+/// Cone under which a sphere is seen from p: false from inside (then its area is sampled instead).
+/// 1 - cos is computed from sin^2, without cancellation however small the sphere (numerics 11).
+INLINE int sphere_cone(F4 center_radius, real3 p, PRIVATE real* sin2_max, PRIVATE real* one_minus_cos) {
+  real3 to_center = load3(center_radius) - p;
+  real d2 = dot3(to_center, to_center);
+  real r = (real)center_radius.w;
+  if (d2 <= r * r * REAL(1.00001)) return 0;  // so close that the cone is the hemisphere to float
+  *sin2_max = r * r / d2;
+  *one_minus_cos = *sin2_max / (REAL(1.0) + r_sqrt(REAL(1.0) - *sin2_max));
+  return 1;
+}
+
+/// Density [1/sr] of a point drawn uniformly by area, seen under distance^2 and |cosine| there.
+INLINE real area_to_solid_angle(real distance2, real cos_light, real area) {
+  return distance2 / (cos_light * area);
+}
+
+INLINE real triangle_area(PRIVATE const SceneData* scene, uint prim) {
+  Triangle tri = scene->triangles[prim];
+  real3 v0 = load3(scene->positions[tri.v0]);
+  return REAL(0.5) * length3(cross3(load3(scene->positions[tri.v1]) - v0,
+                                    load3(scene->positions[tri.v2]) - v0));
+}
+
+INLINE real surface_light_area(PRIVATE const SceneData* scene, Light light) {
+  if (light.kind == LIGHT_TRIANGLE) return triangle_area(scene, light.prim);
+  F4 c = scene->quadrics[light.prim - scene->info.triangle_count].center_radius;
+  real r2 = (real)c.w * (real)c.w;
+  return light.kind == LIGHT_SPHERE ? REAL(4.0) * PI * r2 : PI * r2;
+}
+
+/// Density [1/sr, pick included] with which light_sample at p draws the direction wi that ended on
+/// surface s (an emitter).
+INLINE real light_pdf_surface(PRIVATE const SceneData* scene, PRIVATE const Surface* s, real3 p,
+                              real3 wi) {
+  Light light = scene->lights[s->light];
+#if FEAT_LIGHT_SPHERE
+  if (light.kind == LIGHT_SPHERE) {
+    real sin2_max, one_minus_cos;
+    F4 c = scene->quadrics[light.prim - scene->info.triangle_count].center_radius;
+    if (sphere_cone(c, p, &sin2_max, &one_minus_cos))
+      return (real)light.prob_pick / (TWO_PI * one_minus_cos);
+  }
+#endif
+  real3 to_light = s->p - p;
+  real cos_light = r_abs(dot3(s->ng, wi));
+  return (real)light.prob_pick * area_to_solid_angle(dot3(to_light, to_light), cos_light,
+                                                     surface_light_area(scene, light));
+}
+
+/// Density of a direction that escaped to the environment.
+INLINE real light_pdf_environment(PRIVATE const SceneData* scene) {
+  return (real)scene->lights[scene->info.environment].prob_pick * INV_FOUR_PI;
+}
+
+/// Finishes a sample at a point of an emitting surface; pdf_w is set where the caller left it 0.
+INLINE void sample_surface_point(PRIVATE const SceneData* scene, Light light, real3 p,
+                                 PRIVATE Surface* s, PRIVATE LightSample* out) {
+  real3 d = s->p - p;
+  real d2 = dot3(d, d);
+  real inv = REAL(1.0) / r_sqrt(d2);
+  out->wi = d * inv;
+  real cos_light = -dot3(s->ng, out->wi);
+  uint side = cos_light > REAL(0.0) ? SHAPE_EMIT_FRONT : SHAPE_EMIT_BACK;
+  if (!(s->flags & side) || !(d2 > REAL(0.0))) return;
+  out->radiance = load3(light.value);
+  out->target = spawn_origin(s->p, s->ng, s->offset, -out->wi);
+  if (out->pdf_w == REAL(0.0))
+    out->pdf_w = (real)light.prob_pick *
+                 area_to_solid_angle(d2, r_abs(cos_light), surface_light_area(scene, light));
+}
+
+INLINE void sample_triangle_light(PRIVATE const SceneData* scene, Light light, real3 p, real u, real v,
+                                  PRIVATE LightSample* out) {
+  Triangle tri = scene->triangles[light.prim];
+  Surface s;
+  surface_shape(scene, tri.shape, light.prim, &s);
+  s.flags &= ~SHAPE_SMOOTH;
+  real3 b = warp_triangle(u, v);
+  triangle_point(scene, tri, b.y, b.z, &s);
+  sample_surface_point(scene, light, p, &s, out);
+}
+
+INLINE void sample_sphere_light(PRIVATE const SceneData* scene, Light light, real3 p, real u, real v,
+                                PRIVATE LightSample* out) {
+  Quadric q = scene->quadrics[light.prim - scene->info.triangle_count];
+  Surface s;
+  surface_shape(scene, q.shape, light.prim, &s);
+  real sin2_max, one_minus_cos;
+  real3 n;
+  if (sphere_cone(q.center_radius, p, &sin2_max, &one_minus_cos)) {
+    // Angle alpha at the centre between the axis and the point seen under theta [PBRT4 6.2.4].
+    real x = u * one_minus_cos;  // 1 - cos(theta)
+    real cos_theta = REAL(1.0) - x;
+    real sin2_theta = x * (REAL(2.0) - x);
+    real cos_alpha = sin2_theta / r_sqrt(sin2_max) +
+                     cos_theta * safe_sqrt(REAL(1.0) - sin2_theta / sin2_max);
+    real sin_alpha = safe_sqrt((REAL(1.0) - cos_alpha) * (REAL(1.0) + cos_alpha));
+    SinCos phi = sincos_2pi(v);
+    Frame frame = frame_from_normal(normalize3(p - load3(q.center_radius)));
+    n = normalize3(to_world(frame, REAL3(sin_alpha * phi.c, sin_alpha * phi.s, cos_alpha)));
+    out->pdf_w = (real)light.prob_pick / (TWO_PI * one_minus_cos);
+  } else {
+    n = warp_sphere(u, v);
+  }
+  sphere_point(q.center_radius, n, &s);
+  sample_surface_point(scene, light, p, &s, out);
+}
+
+INLINE void sample_disk_light(PRIVATE const SceneData* scene, Light light, real3 p, real u, real v,
+                              PRIVATE LightSample* out) {
+  Quadric q = scene->quadrics[light.prim - scene->info.triangle_count];
+  Surface s;
+  surface_shape(scene, q.shape, light.prim, &s);
+  disk_point(q, load3(q.center_radius) + to_world(frame_from_normal(load3(q.normal)),
+                                                  warp_disk(u, v) * (real)q.center_radius.w),
+             &s);
+  sample_surface_point(scene, light, p, &s, out);
+}
+
+/// Samples one light from p. radiance = 0 where the sample carries nothing.
+INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, real pick, real u, real v) {
+  LightSample out;
+  out.wi = REAL3(0.0f, 0.0f, 1.0f);
+  out.target = p;
+  out.radiance = REAL3(0.0f, 0.0f, 0.0f);
+  out.pdf_w = REAL(0.0);
+  out.delta = out.at_infinity = 0;
+  Light light = scene->lights[light_pick(scene, pick)];
+  switch (light.kind) {
+#if FEAT_LIGHT_TRIANGLE
+    case LIGHT_TRIANGLE: sample_triangle_light(scene, light, p, u, v, &out); break;
+#endif
+#if FEAT_LIGHT_SPHERE
+    case LIGHT_SPHERE: sample_sphere_light(scene, light, p, u, v, &out); break;
+#endif
+#if FEAT_LIGHT_DISK
+    case LIGHT_DISK: sample_disk_light(scene, light, p, u, v, &out); break;
+#endif
+#if FEAT_LIGHT_POINT
+    case LIGHT_POINT: {
+      real3 d = load3(light.position) - p;
+      real d2 = dot3(d, d);
+      if (!(d2 > REAL(0.0))) break;
+      out.wi = d * (REAL(1.0) / r_sqrt(d2));
+      out.target = load3(light.position);
+      out.radiance = load3(light.value) * (REAL(1.0) / d2);
+      out.pdf_w = (real)light.prob_pick;
+      out.delta = 1;
+      break;
+    }
+#endif
+#if FEAT_LIGHT_DIRECTIONAL
+    case LIGHT_DIRECTIONAL:
+      out.wi = -load3(light.position);
+      out.radiance = load3(light.value);
+      out.pdf_w = (real)light.prob_pick;
+      out.delta = out.at_infinity = 1;
+      break;
+#endif
+#if FEAT_LIGHT_ENVIRONMENT
+    case LIGHT_ENVIRONMENT:
+      out.wi = warp_sphere(u, v);
+      out.radiance = load3(light.value);
+      out.pdf_w = (real)light.prob_pick * INV_FOUR_PI;
+      out.at_infinity = 1;
+      break;
+#endif
+    default: break;
+  }
+  return out;
+}
+
+#endif

@@ -1,0 +1,23 @@
+// Buffer bundles as kernel parameters. A parameter list ends with the launch struct, so every bundle may
+// end with a comma.
+#ifndef PELLUCID_PASSES_BUNDLES_H
+#define PELLUCID_PASSES_BUNDLES_H
+
+#include "geom/scene_data.h"
+
+#define CONST_PARAM(T, name, meaning) __global const T *name,
+#define PARAM(T, name, meaning) __global T *name,
+#define SCENE_PARAMS SCENE_BUFFERS(CONST_PARAM) const SceneInfo scene_info, const Camera camera,
+#define FILM_PARAMS FILM_BUFFERS(PARAM)
+#define SPLAT_PARAMS SPLAT_BUFFERS(PARAM)
+#define DIAG_PARAMS DIAG_BUFFERS(PARAM)
+
+#define SCENE_ASSIGN(T, name, meaning) scene_data.name = name;
+/// Declares `scene_data` from the kernel's parameters.
+#define SCENE_FROM_PARAMS      \
+  SceneData scene_data;        \
+  SCENE_BUFFERS(SCENE_ASSIGN)  \
+  scene_data.diag = diag;      \
+  scene_data.info = scene_info;
+
+#endif

@@ -1,0 +1,23 @@
+// film_add: folds an iteration's samples (and its splats, if the method makes any) into the film.
+// Reads: samples [pixels], splats. Writes: film [pixels], splats (cleared), diag. Domain: pixels.
+// Flags: INTG_SPLAT. Atomics: diag only. Next: the next iteration.
+#include "film/film.h"
+#include "passes/bundles.h"
+
+__kernel void film_add(FILM_PARAMS
+#if INTG_SPLAT
+                           SPLAT_PARAMS
+#endif
+                               DIAG_PARAMS const Launch launch) {
+  uint pixel = (uint)get_global_id(0);
+  if (pixel >= launch.width * launch.height) return;
+  F4 sample = samples[pixel];
+#if INTG_SPLAT
+  __global uint* word = splats + (size_t)pixel * 6;
+  sample.x += splat_value(word, launch.splat_scale);
+  sample.y += splat_value(word + 2, launch.splat_scale);
+  sample.z += splat_value(word + 4, launch.splat_scale);
+  for (int i = 0; i < 6; ++i) word[i] = 0u;
+#endif
+  film_accumulate(&film[pixel], diag, sample);
+}

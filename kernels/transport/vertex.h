@@ -1,0 +1,80 @@
+// Scattering at a surface point in world space: sidedness, shading frame, and the rule that light
+// crosses the surface where the geometric normal says so.
+#ifndef PELLUCID_TRANSPORT_VERTEX_H
+#define PELLUCID_TRANSPORT_VERTEX_H
+
+#include "bsdf/bsdf.h"
+#include "core/frame.h"
+#include "geom/surface.h"
+
+/// A vertex of a walk, met from direction wo (unit, pointing to where the walk came from).
+typedef struct Vertex {
+  Surface surface;
+  Material material;
+  Frame frame;          // shading frame flipped to the side of wo
+  BsdfContext context;  // wo in that frame
+  real side;            // +1: wo is in front of the geometric normal; -1: behind
+  int black;            // one-sided surface met from behind, or wo in a tangent plane
+} Vertex;
+
+/// ns is flipped to wo independently of ng. A pair (wo, wi) then scatters the same way seen from
+/// either end: both normals only have to agree on reflection or transmission.
+INLINE Vertex vertex_at(PRIVATE const SceneData* scene, Surface surface, real3 wo, int importance) {
+  Vertex v;
+  v.surface = surface;
+  v.material = scene->materials[surface.material];
+  real cos_g = dot3(surface.ng, wo);
+  real cos_s = dot3(surface.ns, wo);
+  v.side = cos_g > REAL(0.0) ? REAL(1.0) : REAL(-1.0);
+  v.frame = frame_from_normal(cos_s < REAL(0.0) ? -surface.ns : surface.ns);
+  v.context.wo = to_local(v.frame, wo);
+  v.context.importance = importance;
+  real ior = (real)v.material.ior;
+  v.context.eta = v.side > REAL(0.0) ? ior : REAL(1.0) / ior;
+  v.black = cos_g == REAL(0.0) || v.context.wo.z <= REAL(0.0);
+#if FEAT_ONE_SIDED
+  v.black |= (surface.flags & SHAPE_ONE_SIDED) && v.side < REAL(0.0);
+#endif
+  return v;
+}
+
+/// Both normals agree whether wi is reflected or transmitted.
+INLINE int vertex_sides_agree(PRIVATE const Vertex* v, real3 wi, real3 wi_local) {
+  return dot3(v->surface.ng, wi) * v->side * wi_local.z > REAL(0.0);
+}
+
+/// f and density for a world direction; 0 where the sides disagree.
+INLINE BsdfEval vertex_eval(PRIVATE const Vertex* v, real3 wi, PRIVATE real* cos_wi) {
+  real3 wi_local = to_local(v->frame, wi);
+  *cos_wi = r_abs(wi_local.z);
+  if (!vertex_sides_agree(v, wi, wi_local)) return bsdf_eval_none();
+  return bsdf_eval(v->material, v->context, wi_local);
+}
+
+/// Draws a world direction by the BSDF. weight = 0 ends the walk.
+INLINE BsdfSample vertex_sample(PRIVATE const Vertex* v, real lobe, real u1, real u2) {
+  BsdfSample s = bsdf_sample(v->material, v->context, lobe, u1, u2);
+  if (is_black(s.weight)) return s;
+  real3 wi = to_world(v->frame, s.wi);
+  if (!vertex_sides_agree(v, wi, s.wi)) return bsdf_sample_none();
+  s.wi = normalize3(wi);  // once per bounce, so that directions do not drift (numerics 33)
+  return s;
+}
+
+/// Draws a world direction uniformly over the hemisphere of wo, or over the sphere if light passes
+/// through; delta materials use their own sampling. For the `reference` method.
+INLINE BsdfSample vertex_sample_uniform(PRIVATE const Vertex* v, real lobe, real u1, real u2) {
+  if (bsdf_is_delta(v->material)) return vertex_sample(v, lobe, u1, u2);
+  int whole = bsdf_is_transmissive(v->material);
+  real3 wi = whole ? warp_sphere(u1, u2)
+                   : to_world(frame_from_normal(v->surface.ng * v->side), warp_hemisphere(u1, u2));
+  real cos_wi;
+  BsdfEval e = vertex_eval(v, wi, &cos_wi);
+  BsdfSample s = bsdf_sample_none();
+  s.wi = normalize3(wi);
+  s.pdf_w = whole ? INV_FOUR_PI : INV_TWO_PI;
+  s.weight = e.f * (cos_wi / s.pdf_w);
+  return s;
+}
+
+#endif
