@@ -1,5 +1,5 @@
-// Errors: thrown once where they are found, caught once in apps/main.cpp. Each carries the exit code
-// that shared with users in the command-line contract.
+// Errors: thrown once where they are found, caught once in apps/main.cpp. Each carries the exit
+// code that shared with users in the command-line contract.
 #pragma once
 
 #include <stdexcept>
@@ -10,14 +10,14 @@ namespace pellucid {
 /// Exit codes of every command; scripts rely on them.
 enum class ExitCode : int {
   done = 0,
-  gate_failed = 1,    ///< a gate said no: images differ, non-finite pixels, benchmark slower
-  usage = 2,          ///< the command line is wrong
-  bad_input = 3,      ///< scene, image or asset cannot be read or is invalid
-  device = 4,         ///< OpenCL device, kernel build or device memory
-  output = 5,         ///< output cannot be written
-  numeric = 6,        ///< non-finite pixels or nonzero counters under --strict
-  internal = 70,      ///< a fault of ours
-  stopped = 75,       ///< stopped early, what was rendered is saved
+  gate_failed = 1,  ///< a gate said no: images differ, non-finite pixels, benchmark slower
+  usage = 2,        ///< the command line is wrong
+  bad_input = 3,    ///< scene, image or asset cannot be read or is invalid
+  device = 4,       ///< OpenCL device, kernel build or device memory
+  output = 5,       ///< output cannot be written
+  numeric = 6,      ///< non-finite pixels or nonzero counters under --strict
+  internal = 70,    ///< a fault of ours
+  stopped = 75,     ///< stopped early, what was rendered is saved
 };
 
 /// Base of all errors that pellucid reports to its user.
@@ -59,8 +59,8 @@ struct InternalError : Error {
                                const std::string& why);
 
 /// Checks an invariant in every build; throws InternalError with the place.
-#define PELLUCID_CHECK(expression, why)                                            \
-  do {                                                                             \
+#define PELLUCID_CHECK(expression, why)                                                \
+  do {                                                                                 \
     if (!(expression)) ::pellucid::check_failed(#expression, __FILE__, __LINE__, why); \
   } while (false)
 

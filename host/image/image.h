@@ -1,5 +1,5 @@
-// Images in memory and the interface to the library that reads and writes them. OpenImageIO costs 260
-// shared objects at start-up, so it lives behind dlopen: only commands that touch images pay.
+// Images in memory and the interface to the library that reads and writes them. OpenImageIO costs
+// 260 shared objects at start-up, so it lives behind dlopen: only commands that touch images pay.
 #pragma once
 
 #include <map>
@@ -9,7 +9,8 @@
 
 namespace pellucid {
 
-using MetaValue = std::variant<int, float, std::string, std::vector<float>>;  ///< 16 floats = matrix
+using MetaValue =
+    std::variant<int, float, std::string, std::vector<float>>;  ///< 16 floats = matrix
 
 /// Float image, row-major, channels interleaved: data[(y * width + x) * channels.size() + c].
 struct Image {
@@ -26,13 +27,24 @@ struct Image {
   }
 };
 
-/// Reads any format the image library knows, all channels as float32 (8-bit files: stored value/255,
-/// no linearisation unless `linearise`). Throws InputError naming the file and the reason.
+/// Loads the image library now (0.2 s) instead of at the first read or write, so that a broken
+/// installation shows before hours of rendering. Any thread may call it. Throws InputError with
+/// what to do.
+void load_image_library();
+
+/// Reads any format the image library knows, the first picture in the file, all channels as float32
+/// (8-bit files: stored value/255). `linearise` undoes the sRGB curve in the colour channels of
+/// files with 8 or 16 bits that do not call themselves linear; floating-point files are linear
+/// anyway. EXR channels come in the order they were given to write_image(). Throws InputError
+/// naming the file and the reason.
 Image read_image(const std::string& path, bool linearise = false);
 
-/// Writes by suffix: .exr (float32, ZIP, all channels and metadata), .png (8 bit; data must already be
-/// display-referred in [0,1], clipped otherwise), others as the library can. Atomic: a temporary name
-/// in the same folder, then rename. Throws OutputError naming the file and the reason.
+/// Writes by suffix: .exr (float32, ZIP, all channels and metadata), .png (8 bit; data must already
+/// be display-referred in [0,1], clipped otherwise, NaN becomes 0), others as the library can. A
+/// format that cannot hold all channels gets R, G, B only (or the first channel where there are
+/// none). Metadata is for EXR alone: 16 floats become a matrix (M44f), rows as given; lists of
+/// other lengths are not kept. Atomic: a temporary name in the same folder, then rename. Throws
+/// OutputError naming the file and the reason.
 void write_image(const std::string& path, const Image& image);
 
 }  // namespace pellucid

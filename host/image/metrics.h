@@ -7,18 +7,24 @@
 
 namespace pellucid {
 
-/// All errors are means over pixels and the R,G,B channels (or the one channel of grey images), taken
-/// in double.
+/// All errors are means over pixels and the R,G,B channels (or the one channel of grey images),
+/// taken in double. Other channels (depth, variance, ...) are not looked at. e = 1 % of the mean of
+/// the reference; 0/0 counts as no error, so a black image equals itself.
 struct ImageError {
-  std::uint64_t nonfinite = 0;  ///< pixels with a NaN or Inf in either image; if > 0 the rest is NaN
+  std::uint64_t nonfinite =
+      0;  ///< pixels with a NaN or Inf in either image; if > 0 the rest is NaN
   double mse = 0, rmse = 0;
-  double relmse = 0;        ///< mean (a-b)^2/(b^2+e^2), e = 1 % of the mean of the reference b
-  double smape = 0;         ///< mean 2|a-b|/(|a|+|b|+e)
-  double energy_ratio = 0;  ///< sum a / sum b
-  double p95_tile_relmse = 0;  ///< 95th percentile of relMSE over 16x16 tiles
+  double relmse = 0;           ///< mean (a-b)^2/(b^2+e^2)
+  double smape = 0;            ///< mean 2|a-b|/(|a|+|b|+e)
+  double energy_ratio = 0;     ///< sum a / sum b; 1 if both are 0
+  double p95_tile_relmse = 0;  ///< 95th percentile (nearest rank) of relMSE over 16x16 tiles
 };
 
 /// Throws InputError if the sizes or colour channels differ.
 ImageError compare_images(const Image& a, const Image& reference);
+
+/// One channel "error" per pixel: the root of its relMSE, i.e. 0.01 is "1 % off". NaN where either
+/// image is not finite. Throws as compare_images.
+Image error_map(const Image& a, const Image& reference);
 
 }  // namespace pellucid

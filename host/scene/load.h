@@ -8,7 +8,8 @@
 
 namespace pellucid {
 
-/// Resolves what the user typed: an existing path wins; else the name of a shipped scene, searched as
+/// Resolves what the user typed: an existing path wins; else the name of a shipped scene, searched
+/// as
 /// `<folder>/**/<name>.json` in each of `scene_folders`. Throws InputError that lists near names.
 std::string find_scene(const std::string& path_or_name,
                        const std::vector<std::string>& scene_folders);

@@ -1,5 +1,5 @@
-// The scene in human units: what a scene file says, after checks and with all shapes in world space.
-// No OpenCL, no file formats here. Right-handed world, colours linear Rec.709.
+// The scene in human units: what a scene file says, after checks and with all shapes in world
+// space. No OpenCL, no file formats here. Right-handed world, colours linear Rec.709.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -25,11 +25,11 @@ struct Material {
   std::string name;
   MaterialKind kind = MaterialKind::diffuse;
   Rgb reflectance{0.5};
-  Rgb specular{0.0};       ///< Phong: hemispherical strength of the glossy lobe at normal incidence
-  double exponent = 1.0;   ///< Phong exponent n >= 0
-  double ior = 1.5;        ///< dielectric, index of the inside over the outside, > 0
-  double alpha = 0.0;      ///< GGX width in [0, 1]; alpha = roughness^2
-  Rgb eta{0.0}, k{0.0};    ///< conductor: complex index of refraction per channel
+  Rgb specular{0.0};      ///< Phong: hemispherical strength of the glossy lobe at normal incidence
+  double exponent = 1.0;  ///< Phong exponent n >= 0
+  double ior = 1.5;       ///< dielectric, index of the inside over the outside, > 0
+  double alpha = 0.0;     ///< GGX width in [0, 1]; alpha = roughness^2
+  Rgb eta{0.0}, k{0.0};   ///< conductor: complex index of refraction per channel
 };
 
 /// Light that a surface gives off, the same in all directions of the emitting side(s).
@@ -97,9 +97,9 @@ struct RenderSettings {
 };
 
 struct Scene {
-  std::string name;            ///< file name without folder and suffix
-  std::string path;            ///< as opened
-  std::string description;     ///< the file's "description": why the scene is here
+  std::string name;         ///< file name without folder and suffix
+  std::string path;         ///< as opened
+  std::string description;  ///< the file's "description": why the scene is here
   Camera camera;
   RenderSettings settings;
   std::vector<Material> materials;

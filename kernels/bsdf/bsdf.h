@@ -22,18 +22,23 @@ INLINE int bsdf_is_transmissive(Material m) {
 INLINE BsdfEval bsdf_eval(Material m, BsdfContext c, real3 wi) {
   switch (m.kind) {
 #if FEAT_DIFFUSE
-    case MATERIAL_DIFFUSE: return diffuse_eval(m, wi);
+    case MATERIAL_DIFFUSE:
+      return diffuse_eval(m, wi);
 #endif
 #if FEAT_PHONG
-    case MATERIAL_PHONG: return phong_eval(m, c.wo, wi);
+    case MATERIAL_PHONG:
+      return phong_eval(m, c.wo, wi);
 #endif
 #if FEAT_ROUGH_CONDUCTOR
-    case MATERIAL_ROUGH_CONDUCTOR: return rough_conductor_eval(m, c.wo, wi);
+    case MATERIAL_ROUGH_CONDUCTOR:
+      return rough_conductor_eval(m, c.wo, wi);
 #endif
 #if FEAT_ROUGH_DIELECTRIC
-    case MATERIAL_ROUGH_DIELECTRIC: return rough_dielectric_eval(m, c, wi);
+    case MATERIAL_ROUGH_DIELECTRIC:
+      return rough_dielectric_eval(m, c, wi);
 #endif
-    default: return bsdf_eval_none();
+    default:
+      return bsdf_eval_none();
   }
 }
 
@@ -41,28 +46,35 @@ INLINE BsdfEval bsdf_eval(Material m, BsdfContext c, real3 wi) {
 INLINE BsdfSample bsdf_sample(Material m, BsdfContext c, real lobe, real u, real v) {
   switch (m.kind) {
 #if FEAT_DIFFUSE
-    case MATERIAL_DIFFUSE: return diffuse_sample(m, u, v);
+    case MATERIAL_DIFFUSE:
+      return diffuse_sample(m, u, v);
 #endif
 #if FEAT_PHONG
-    case MATERIAL_PHONG: return phong_sample(m, c.wo, lobe, u, v);
+    case MATERIAL_PHONG:
+      return phong_sample(m, c.wo, lobe, u, v);
 #endif
 #if FEAT_MIRROR
-    case MATERIAL_MIRROR: return mirror_sample(c.wo, load3(m.reflectance));
+    case MATERIAL_MIRROR:
+      return mirror_sample(c.wo, load3(m.reflectance));
 #endif
 #if FEAT_CONDUCTOR
     case MATERIAL_CONDUCTOR:
       return mirror_sample(c.wo, fresnel_conductor(c.wo.z, load3(m.eta_specular), load3(m.k)));
 #endif
 #if FEAT_ROUGH_CONDUCTOR
-    case MATERIAL_ROUGH_CONDUCTOR: return rough_conductor_sample(m, c.wo, u, v);
+    case MATERIAL_ROUGH_CONDUCTOR:
+      return rough_conductor_sample(m, c.wo, u, v);
 #endif
 #if FEAT_DIELECTRIC
-    case MATERIAL_DIELECTRIC: return dielectric_sample(c, lobe);
+    case MATERIAL_DIELECTRIC:
+      return dielectric_sample(c, lobe);
 #endif
 #if FEAT_ROUGH_DIELECTRIC
-    case MATERIAL_ROUGH_DIELECTRIC: return rough_dielectric_sample(m, c, lobe, u, v);
+    case MATERIAL_ROUGH_DIELECTRIC:
+      return rough_dielectric_sample(m, c, lobe, u, v);
 #endif
-    default: return bsdf_sample_none();
+    default:
+      return bsdf_sample_none();
   }
 }
 

@@ -4,8 +4,8 @@
 
 #include "core/real.h"
 
-/// Reflectance of a dielectric met at cosine `cos_i` in [0, 1] with eta = transmitted / incident index;
-/// *cos_t receives the cosine of the refracted direction (0 under total reflection).
+/// Reflectance of a dielectric met at cosine `cos_i` in [0, 1] with eta = transmitted / incident
+/// index; *cos_t receives the cosine of the refracted direction (0 under total reflection).
 INLINE real fresnel_dielectric(real cos_i, real eta, PRIVATE real* cos_t) {
   real sin2_t = (REAL(1.0) - cos_i) * (REAL(1.0) + cos_i) / (eta * eta);
   if (sin2_t >= REAL(1.0)) {
@@ -38,7 +38,9 @@ INLINE real3 fresnel_conductor(real cos_i, real3 eta, real3 k) {
 }
 
 /// wo mirrored about the unit normal h.
-INLINE real3 reflect_about(real3 wo, real3 h) { return h * (REAL(2.0) * dot3(wo, h)) - wo; }
+INLINE real3 reflect_about(real3 wo, real3 h) {
+  return h * (REAL(2.0) * dot3(wo, h)) - wo;
+}
 /// wo bent at h (dot(wo, h) = cos_i > 0), given the cosine of the refracted direction.
 INLINE real3 refract_about(real3 wo, real3 h, real eta, real cos_i, real cos_t) {
   return h * (cos_i / eta - cos_t) - wo * (REAL(1.0) / eta);

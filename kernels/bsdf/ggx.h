@@ -1,5 +1,5 @@
-// GGX microfacets with height-correlated Smith masking and sampling of visible normals. Tangent forms
-// throughout: 1 - cos^2 would lose the whole lobe in float at small alpha (numerics 12).
+// GGX microfacets with height-correlated Smith masking and sampling of visible normals. Tangent
+// forms throughout: 1 - cos^2 would lose the whole lobe in float at small alpha (numerics 12).
 #ifndef PELLUCID_BSDF_GGX_H
 #define PELLUCID_BSDF_GGX_H
 

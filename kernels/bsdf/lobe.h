@@ -1,6 +1,7 @@
 // What every lobe takes and gives. Local frame around the shading normal, flipped so that wo.z > 0;
-// wi.z > 0 is reflection, wi.z < 0 transmission. All lobes are seen by both kinds of walk: `importance`
-// says that the walk started at a light, where refraction does not scale by eta^2 [Veach97 5.2].
+// wi.z > 0 is reflection, wi.z < 0 transmission. All lobes are seen by both kinds of walk:
+// `importance` says that the walk started at a light, where refraction does not scale by eta^2
+// [Veach97 5.2].
 #ifndef PELLUCID_BSDF_LOBE_H
 #define PELLUCID_BSDF_LOBE_H
 
@@ -14,7 +15,8 @@ typedef struct BsdfContext {
   int importance;  // 1: walk from a light; 0: walk from the camera
 } BsdfContext;
 
-/// f(wo, wi) [1/sr] without the cosine, and the density [1/sr] with which sampling draws wi given wo.
+/// f(wo, wi) [1/sr] without the cosine, and the density [1/sr] with which sampling draws wi given
+/// wo.
 typedef struct BsdfEval {
   real3 f;
   real pdf_w;
@@ -22,10 +24,10 @@ typedef struct BsdfEval {
 
 /// A drawn direction. weight = f |wi.z| / pdf_w, already cancelled; 0 where nothing is scattered.
 typedef struct BsdfSample {
-  real3 wi;      // unit, local
+  real3 wi;  // unit, local
   real3 weight;
-  real pdf_w;    // [1/sr]; 0 for a delta lobe
-  int delta;     // wi is the only direction
+  real pdf_w;  // [1/sr]; 0 for a delta lobe
+  int delta;   // wi is the only direction
 } BsdfSample;
 
 INLINE BsdfEval bsdf_eval_none(void) {

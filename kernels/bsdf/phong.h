@@ -1,4 +1,5 @@
-// Modified Phong: diffuse / pi + specular (n+2)/(2 pi) cos^n(angle to the mirror direction) [Lafortune94].
+// Modified Phong: diffuse / pi + specular (n+2)/(2 pi) cos^n(angle to the mirror direction)
+// [Lafortune94].
 #ifndef PELLUCID_BSDF_PHONG_H
 #define PELLUCID_BSDF_PHONG_H
 

@@ -19,7 +19,11 @@ INLINE Frame frame_from_normal(real3 n) {
   f.n = n;
   return f;
 }
-INLINE real3 to_local(Frame f, real3 v) { return REAL3(dot3(v, f.s), dot3(v, f.t), dot3(v, f.n)); }
-INLINE real3 to_world(Frame f, real3 v) { return f.s * v.x + f.t * v.y + f.n * v.z; }
+INLINE real3 to_local(Frame f, real3 v) {
+  return REAL3(dot3(v, f.s), dot3(v, f.t), dot3(v, f.n));
+}
+INLINE real3 to_world(Frame f, real3 v) {
+  return f.s * v.x + f.t * v.y + f.n * v.z;
+}
 
 #endif

@@ -1,6 +1,6 @@
 // Functions of our own where the device library is slow (PoCL's scalar pow takes 130 ns) or differs
-// between devices. Float: polynomials, errors in ulps stated and tested against double. In the double
-// twin they are the standard library's.
+// between devices. Float: polynomials, errors in ulps stated and tested against double. In the
+// double twin they are the standard library's.
 #ifndef PELLUCID_CORE_MATH_H
 #define PELLUCID_CORE_MATH_H
 
@@ -18,19 +18,22 @@ typedef struct SinCos {
 
 #if PELLUCID_DEVICE || defined(PELLUCID_REAL_IS_FLOAT)
 
-/// sin and cos of 2 pi u for u in [0, 1], to 1.5 ulp of 1: quadrant in exact arithmetic, then Taylor-like
-/// polynomials on [-pi/4, pi/4].
+/// sin and cos of 2 pi u for u in [0, 1], to 1.5 ulp of 1: quadrant in exact arithmetic, then
+/// Taylor-like polynomials on [-pi/4, pi/4].
 INLINE SinCos sincos_2pi(float u) {
   int quadrant = (int)(u * 4.0f + 0.5f);
   float a = (u - 0.25f * (float)quadrant) * 6.28318530717958647692f;
   float a2 = a * a;
-  float s = a + a * a2 * r_fma(a2, r_fma(a2, r_fma(a2, 2.6083159809786593541503e-06f,
-                                                   -1.981069071916863322258e-04f),
-                                         8.333078585565090179443e-03f),
-                               -1.666665971279144287109e-01f);
-  float c = 1.0f + a2 * r_fma(a2, r_fma(a2, r_fma(a2, 2.443315711809948e-05f,
-                                                  -1.388731625493765e-03f),
-                                        4.166664568298827e-02f),
+  float s =
+      a +
+      a * a2 *
+          r_fma(a2,
+                r_fma(a2, r_fma(a2, 2.6083159809786593541503e-06f, -1.981069071916863322258e-04f),
+                      8.333078585565090179443e-03f),
+                -1.666665971279144287109e-01f);
+  float c = 1.0f + a2 * r_fma(a2,
+                              r_fma(a2, r_fma(a2, 2.443315711809948e-05f, -1.388731625493765e-03f),
+                                    4.166664568298827e-02f),
                               -0.5f);
   SinCos r;
   int odd = quadrant & 1;
@@ -40,8 +43,8 @@ INLINE SinCos sincos_2pi(float u) {
   return r;
 }
 
-/// log2 of a normal positive float, absolute error below 2^-23 near 1 and 1 ulp elsewhere. The result
-/// comes as high + low so that pow keeps its digits.
+/// log2 of a normal positive float, absolute error below 2^-23 near 1 and 1 ulp elsewhere. The
+/// result comes as high + low so that pow keeps its digits.
 INLINE float log2_split(float x, PRIVATE float* low) {
   uint bits = real_bits(x);
   int e = (int)((bits - 0x3f3504f3u) >> 23);  // mantissa into [sqrt(1/2), sqrt(2))
@@ -53,8 +56,8 @@ INLINE float log2_split(float x, PRIVATE float* low) {
   float lead = 2.885390043258667f * f;
   float lead_low = r_fma(2.885390043258667f, f, -lead) + 3.851925e-8f * f;
   float f_error = r_fma(-f, m + 1.0f, m - 1.0f) / (m + 1.0f);
-  float tail = f * f2 * r_fma(f2, r_fma(f2, r_fma(f2, 0.32059889f, 0.41219858f), 0.57707802f),
-                              0.96179669f);
+  float tail =
+      f * f2 * r_fma(f2, r_fma(f2, r_fma(f2, 0.32059889f, 0.41219858f), 0.57707802f), 0.96179669f);
   float fe = (float)e;
   float sum = fe + lead;
   *low = ((fe - sum) + lead) + (lead_low + 2.8853900f * f_error + tail);
@@ -94,7 +97,9 @@ INLINE SinCos sincos_2pi(real u) {
   SinCos r = {std::sin(TWO_PI * u), std::cos(TWO_PI * u)};
   return r;
 }
-INLINE real pow_unit(real x, real y) { return std::pow(x, y); }
+INLINE real pow_unit(real x, real y) {
+  return std::pow(x, y);
+}
 
 #endif
 

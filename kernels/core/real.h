@@ -22,14 +22,26 @@ typedef float3 real3;
 #include "core/real_host.h"
 #endif
 
-INLINE real r_min(real a, real b) { return a < b ? a : b; }
-INLINE real r_max(real a, real b) { return a > b ? a : b; }
-INLINE real r_clamp(real x, real low, real high) { return r_min(r_max(x, low), high); }
-INLINE real sqr(real x) { return x * x; }
+INLINE real r_min(real a, real b) {
+  return a < b ? a : b;
+}
+INLINE real r_max(real a, real b) {
+  return a > b ? a : b;
+}
+INLINE real r_clamp(real x, real low, real high) {
+  return r_min(r_max(x, low), high);
+}
+INLINE real sqr(real x) {
+  return x * x;
+}
 /// sqrt of max(x, 0): for differences that rounding may push below zero.
-INLINE real safe_sqrt(real x) { return r_sqrt(r_max(x, REAL(0.0))); }
+INLINE real safe_sqrt(real x) {
+  return r_sqrt(r_max(x, REAL(0.0)));
+}
 /// |x| with the sign of s (s = -0 counts as negative).
-INLINE real sign_of(real x, real s) { return s < REAL(0.0) ? -r_abs(x) : r_abs(x); }
+INLINE real sign_of(real x, real s) {
+  return s < REAL(0.0) ? -r_abs(x) : r_abs(x);
+}
 
 /// Finite by bit pattern: isnan may be folded away where a device assumes finite maths.
 INLINE int is_finite(real x) {
@@ -40,15 +52,27 @@ INLINE int is_finite(real x) {
 #endif
 }
 
-INLINE real3 load3(F4 v) { return REAL3(v.x, v.y, v.z); }
-INLINE real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+INLINE real3 load3(F4 v) {
+  return REAL3(v.x, v.y, v.z);
+}
+INLINE real dot3(real3 a, real3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 INLINE real3 cross3(real3 a, real3 b) {
   return REAL3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
-INLINE real length3(real3 a) { return r_sqrt(dot3(a, a)); }
-INLINE real3 normalize3(real3 a) { return a * (REAL(1.0) / r_sqrt(dot3(a, a))); }
-INLINE real3 abs3(real3 a) { return REAL3(r_abs(a.x), r_abs(a.y), r_abs(a.z)); }
-INLINE real max3(real3 a) { return r_max(a.x, r_max(a.y, a.z)); }
+INLINE real length3(real3 a) {
+  return r_sqrt(dot3(a, a));
+}
+INLINE real3 normalize3(real3 a) {
+  return a * (REAL(1.0) / r_sqrt(dot3(a, a)));
+}
+INLINE real3 abs3(real3 a) {
+  return REAL3(r_abs(a.x), r_abs(a.y), r_abs(a.z));
+}
+INLINE real max3(real3 a) {
+  return r_max(a.x, r_max(a.y, a.z));
+}
 INLINE int is_black(real3 a) {
   return a.x == REAL(0.0) && a.y == REAL(0.0) && a.z == REAL(0.0);
 }

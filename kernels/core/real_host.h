@@ -1,5 +1,5 @@
-// The twin's side of core/real.h: real and real3 for C++. Compile with -DPELLUCID_REAL=float or double;
-// everything lands in a namespace of its own, so both can live in one program.
+// The twin's side of core/real.h: real and real3 for C++. Compile with -DPELLUCID_REAL=float or
+// double; everything lands in a namespace of its own, so both can live in one program.
 #ifndef PELLUCID_CORE_REAL_HOST_H
 #define PELLUCID_CORE_REAL_HOST_H
 
@@ -22,23 +22,55 @@ using real = PELLUCID_REAL;
 struct real3 {
   real x, y, z;
 };
-inline real3 operator+(real3 a, real3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline real3 operator-(real3 a, real3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline real3 operator*(real3 a, real3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-inline real3 operator/(real3 a, real3 b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
-inline real3 operator*(real3 a, real s) { return {a.x * s, a.y * s, a.z * s}; }
-inline real3 operator*(real s, real3 a) { return a * s; }
-inline real3 operator/(real3 a, real s) { return {a.x / s, a.y / s, a.z / s}; }
-inline real3 operator+(real3 a, real s) { return {a.x + s, a.y + s, a.z + s}; }
-inline real3 operator-(real3 a, real s) { return {a.x - s, a.y - s, a.z - s}; }
-inline real3 operator-(real3 a) { return {-a.x, -a.y, -a.z}; }
-inline real3& operator+=(real3& a, real3 b) { return a = a + b; }
-inline real3& operator*=(real3& a, real3 b) { return a = a * b; }
-inline real3& operator*=(real3& a, real s) { return a = a * s; }
+inline real3 operator+(real3 a, real3 b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline real3 operator-(real3 a, real3 b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline real3 operator*(real3 a, real3 b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+inline real3 operator/(real3 a, real3 b) {
+  return {a.x / b.x, a.y / b.y, a.z / b.z};
+}
+inline real3 operator*(real3 a, real s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+inline real3 operator*(real s, real3 a) {
+  return a * s;
+}
+inline real3 operator/(real3 a, real s) {
+  return {a.x / s, a.y / s, a.z / s};
+}
+inline real3 operator+(real3 a, real s) {
+  return {a.x + s, a.y + s, a.z + s};
+}
+inline real3 operator-(real3 a, real s) {
+  return {a.x - s, a.y - s, a.z - s};
+}
+inline real3 operator-(real3 a) {
+  return {-a.x, -a.y, -a.z};
+}
+inline real3& operator+=(real3& a, real3 b) {
+  return a = a + b;
+}
+inline real3& operator*=(real3& a, real3 b) {
+  return a = a * b;
+}
+inline real3& operator*=(real3& a, real s) {
+  return a = a * s;
+}
 
-inline real r_sqrt(real x) { return std::sqrt(x); }
-inline real r_abs(real x) { return std::abs(x); }
-inline real r_fma(real a, real b, real c) { return std::fma(a, b, c); }
+inline real r_sqrt(real x) {
+  return std::sqrt(x);
+}
+inline real r_abs(real x) {
+  return std::abs(x);
+}
+inline real r_fma(real a, real b, real c) {
+  return std::fma(a, b, c);
+}
 #ifdef PELLUCID_REAL_IS_FLOAT
 inline uint real_bits(float x) {
   uint u;
@@ -51,6 +83,8 @@ inline float real_from_bits(uint u) {
   return x;
 }
 #endif
-inline int host_is_finite(real x) { return std::isfinite(x); }
+inline int host_is_finite(real x) {
+  return std::isfinite(x);
+}
 
 #endif

@@ -6,9 +6,9 @@
 #include "core/real.h"
 
 /// Table of dimensions: blocks of four numbers each.
-#define DIM_PIXEL 0u                             /* x, y within the pixel */
-#define DIM_BSDF(bounce) (1u + 2u * (bounce))    /* x lobe, y z direction, w roulette */
-#define DIM_LIGHT(bounce) (2u + 2u * (bounce))   /* x pick, y z point */
+#define DIM_PIXEL 0u                           /* x, y within the pixel */
+#define DIM_BSDF(bounce) (1u + 2u * (bounce))  /* x lobe, y z direction, w roulette */
+#define DIM_LIGHT(bounce) (2u + 2u * (bounce)) /* x pick, y z point */
 
 typedef struct Rng {
   uint path;       // pixel or light path index
@@ -44,7 +44,9 @@ INLINE U4 rng_words(Rng rng, uint dimension) {
 }
 
 /// A word as a number in [0, 1): the upper 24 bits, exact in float.
-INLINE real rng_unit(uint word) { return (real)(word >> 8) * REAL(5.9604644775390625e-8); }
+INLINE real rng_unit(uint word) {
+  return (real)(word >> 8) * REAL(5.9604644775390625e-8);
+}
 
 INLINE Random4 rng4(Rng rng, uint dimension) {
   U4 v = rng_words(rng, dimension);

@@ -1,6 +1,7 @@
-// Vectors of BVH_WIDTH or LEAF_WIDTH lanes: OpenCL vector types on the device, a small struct in the
-// twin. A comparison goes straight to a bit mask, bit i for lane i; x86 CPUs have an instruction for
-// it, the portable form stands beside it and is what other devices (and the tests) use.
+// Vectors of BVH_WIDTH or LEAF_WIDTH lanes: OpenCL vector types on the device, a small struct in
+// the twin. A comparison goes straight to a bit mask, bit i for lane i; x86 CPUs have an
+// instruction for it, the portable form stands beside it and is what other devices (and the tests)
+// use.
 #ifndef PELLUCID_CORE_SIMD_H
 #define PELLUCID_CORE_SIMD_H
 
@@ -19,11 +20,19 @@ typedef SIMD_CAT(int, SIMD_WIDTH) vint;
 
 #define v_splat(x) ((vreal)(x))
 #define v_fma(a, b, c) fma(a, b, c)
-INLINE vreal v_load(__global const float* p) { return *(__global const vreal*)p; }
-INLINE vreal v_min(vreal a, vreal b) { return a < b ? a : b; }  // one instruction; fmin is three
-INLINE vreal v_max(vreal a, vreal b) { return a > b ? a : b; }
+INLINE vreal v_load(__global const float* p) {
+  return *(__global const vreal*)p;
+}
+INLINE vreal v_min(vreal a, vreal b) {
+  return a < b ? a : b;
+}  // one instruction; fmin is three
+INLINE vreal v_max(vreal a, vreal b) {
+  return a > b ? a : b;
+}
 /// a where it is not zero, else b.
-INLINE vreal v_if_zero(vreal a, vreal b) { return a == (vreal)(0.0f) ? b : a; }
+INLINE vreal v_if_zero(vreal a, vreal b) {
+  return a == (vreal)(0.0f) ? b : a;
+}
 
 #if SIMD_BUILTINS && defined(__AVX512F__) && SIMD_WIDTH == 16
 #define v_mask_le(a, b) ((uint)(ushort)__builtin_ia32_cmpps512_mask((a), (b), 2, (ushort)-1, 4))
@@ -53,7 +62,9 @@ INLINE uint v_mask(vint m) {
 #endif
 
 /// Lanes to an array, for access by index.
-INLINE void v_store(vreal v, PRIVATE real* out) { *(PRIVATE vreal*)out = v; }
+INLINE void v_store(vreal v, PRIVATE real* out) {
+  *(PRIVATE vreal*)out = v;
+}
 #define SIMD_ALIGNED __attribute__((aligned(4 * SIMD_WIDTH)))
 
 #else

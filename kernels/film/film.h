@@ -6,8 +6,9 @@
 #include "shared/buffers.h"
 #include "shared/limits.h"
 
-/// Adds x to the two-float sum (high, low) [Knuth TwoSum, then renormalised]: the error of n additions
-/// stays near 2^-48 n instead of 2^-24 n. Correct for any order of magnitudes; needs strict arithmetic.
+/// Adds x to the two-float sum (high, low) [Knuth TwoSum, then renormalised]: the error of n
+/// additions stays near 2^-48 n instead of 2^-24 n. Correct for any order of magnitudes; needs
+/// strict arithmetic.
 INLINE void sum_add(PRIVATE float* high, PRIVATE float* low, float x) {
   float a = *high;
   float s = a + x;
@@ -36,8 +37,8 @@ INLINE int float_is_finite(float x) {
 #endif
 }
 
-/// Adds one iteration's value of a pixel (w: its rays). A non-finite or negative value is dropped (its
-/// pixel gets 0 for the iteration) and counted.
+/// Adds one iteration's value of a pixel (w: its rays). A non-finite or negative value is dropped
+/// (its pixel gets 0 for the iteration) and counted.
 INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, F4 sample) {
   FilmPixel p = *pixel;
   int bad = 0;

@@ -1,5 +1,5 @@
-// Closest hit and occlusion through a wide BVH: boxes padded so that a hit is never lost to rounding,
-// children visited nearest first, stack bound known from the build.
+// Closest hit and occlusion through a wide BVH: boxes padded so that a hit is never lost to
+// rounding, children visited nearest first, stack bound known from the build.
 #ifndef PELLUCID_GEOM_BVH_TRAVERSE_H
 #define PELLUCID_GEOM_BVH_TRAVERSE_H
 
@@ -10,11 +10,12 @@
 #define NODE_STRIDE (7 * SIMD_WIDTH)
 #define BLOCK_STRIDE (9 * SIMD_WIDTH)
 
-/// Per-ray constants of the slab test: t_near = bound * inv + near_add, and so for the far side; the
-/// additions carry the padding, so padded boxes cost nothing per node.
+/// Per-ray constants of the slab test: t_near = bound * inv + near_add, and so for the far side;
+/// the additions carry the padding, so padded boxes cost nothing per node.
 typedef struct RaySlabs {
   real3 inv, inv_far, near_add, far_add;
-  uint sx, sy, sz;  // lane offset of the near plane: 0, or SIMD_WIDTH where the ray goes down the axis
+  uint sx, sy,
+      sz;  // lane offset of the near plane: 0, or SIMD_WIDTH where the ray goes down the axis
 } RaySlabs;
 
 INLINE void slab_axis(real o, real d, real reach, PRIVATE real* inv, PRIVATE real* inv_far,
@@ -49,8 +50,10 @@ INLINE uint node_hits(GLOBAL const float* node, RaySlabs s, real t_max, PRIVATE 
   vreal ny = v_fma(v_load(node + 2 * SIMD_WIDTH + s.sy), v_splat(s.inv.y), v_splat(s.near_add.y));
   vreal nz = v_fma(v_load(node + 4 * SIMD_WIDTH + s.sz), v_splat(s.inv.z), v_splat(s.near_add.z));
   vreal fx = v_fma(v_load(node + SIMD_WIDTH - s.sx), v_splat(s.inv_far.x), v_splat(s.far_add.x));
-  vreal fy = v_fma(v_load(node + 3 * SIMD_WIDTH - s.sy), v_splat(s.inv_far.y), v_splat(s.far_add.y));
-  vreal fz = v_fma(v_load(node + 5 * SIMD_WIDTH - s.sz), v_splat(s.inv_far.z), v_splat(s.far_add.z));
+  vreal fy =
+      v_fma(v_load(node + 3 * SIMD_WIDTH - s.sy), v_splat(s.inv_far.y), v_splat(s.far_add.y));
+  vreal fz =
+      v_fma(v_load(node + 5 * SIMD_WIDTH - s.sz), v_splat(s.inv_far.z), v_splat(s.far_add.z));
   vreal tn = v_max(v_max(nx, ny), v_max(nz, v_splat(REAL(0.0))));
   vreal tf = v_min(v_min(fx, fy), v_min(fz, v_splat(t_max)));
   *entry = tn;
@@ -79,8 +82,8 @@ INLINE void leaf_test(PRIVATE const SceneData* scene, uint ref, RayShear shear, 
 #endif
 #if FEAT_TRIANGLES
   for (uint i = index; i < index + count; ++i)
-    triangle_block(scene->leaves + (size_t)i * BLOCK_STRIDE, scene->leaf_prims + i * SIMD_WIDTH, shear,
-                   hit);
+    triangle_block(scene->leaves + (size_t)i * BLOCK_STRIDE, scene->leaf_prims + i * SIMD_WIDTH,
+                   shear, hit);
 #endif
 }
 

@@ -18,8 +18,8 @@ typedef struct Hit {
   uint prim;    // primitive id, or NONE
 } Hit;
 
-/// Start of a ray that leaves the surface point p along w: p moved by `offset` (an error bound along
-/// the geometric normal, see Surface) to the side of w. No absolute epsilon.
+/// Start of a ray that leaves the surface point p along w: p moved by `offset` (an error bound
+/// along the geometric normal, see Surface) to the side of w. No absolute epsilon.
 INLINE real3 spawn_origin(real3 p, real3 ng, real offset, real3 w) {
   return p + ng * (dot3(ng, w) < REAL(0.0) ? -offset : offset);
 }

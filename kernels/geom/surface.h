@@ -5,13 +5,13 @@
 #include "geom/bvh_traverse.h"
 
 typedef struct Surface {
-  real3 p;       // world; on the surface up to `offset`
-  real3 ng;      // unit geometric normal, front side
-  real3 ns;      // unit shading normal, unflipped
-  real offset;   // distance along ng that surely clears the rounding error of p
+  real3 p;      // world; on the surface up to `offset`
+  real3 ng;     // unit geometric normal, front side
+  real3 ns;     // unit shading normal, unflipped
+  real offset;  // distance along ng that surely clears the rounding error of p
   uint material;
-  uint flags;    // SHAPE_*
-  uint light;    // index of the light this primitive is, or NONE
+  uint flags;  // SHAPE_*
+  uint light;  // index of the light this primitive is, or NONE
 } Surface;
 
 /// Sphere: point and error from its outward normal.
@@ -34,7 +34,8 @@ INLINE void disk_point(Quadric q, real3 p, PRIVATE Surface* s) {
 }
 
 /// Triangle: point rebuilt from barycentrics, which is far more accurate than o + t d; its error is
-/// bounded by POINT_ERROR_ULPS roundoffs of sum |b_i v_i| per axis, projected on the normal [PBRT4 6.8].
+/// bounded by POINT_ERROR_ULPS roundoffs of sum |b_i v_i| per axis, projected on the normal
+/// [PBRT4 6.8].
 INLINE void triangle_point(PRIVATE const SceneData* scene, Triangle tri, real b1, real b2,
                            PRIVATE Surface* s) {
   real3 v0 = load3(scene->positions[tri.v0]);

@@ -1,5 +1,5 @@
-// Watertight ray-triangle test over a whole leaf block [Woop13]: every vertex is sheared into ray space
-// once and alike in all triangles that share it, and a zero edge function is settled exactly.
+// Watertight ray-triangle test over a whole leaf block [Woop13]: every vertex is sheared into ray
+// space once and alike in all triangles that share it, and a zero edge function is settled exactly.
 #ifndef PELLUCID_GEOM_TRIANGLE_H
 #define PELLUCID_GEOM_TRIANGLE_H
 
@@ -8,9 +8,9 @@
 
 /// What the test needs of a ray, computed once.
 typedef struct RayShear {
-  uint kx, ky, kz;      // kz: axis of the largest |d|
-  real ox, oy, oz;      // origin, permuted
-  real sx, sy, sz;      // shear: d[kx]/d[kz], d[ky]/d[kz], 1/d[kz]
+  uint kx, ky, kz;  // kz: axis of the largest |d|
+  real ox, oy, oz;  // origin, permuted
+  real sx, sy, sz;  // shear: d[kx]/d[kz], d[ky]/d[kz], 1/d[kz]
 } RayShear;
 
 INLINE RayShear ray_shear(Ray ray) {
@@ -31,8 +31,8 @@ INLINE RayShear ray_shear(Ray ray) {
   return s;
 }
 
-/// a b - c d, rounded; where the rounded products are equal, the difference of their rounding errors,
-/// which is then the exact value (two fma, no fp64 needed).
+/// a b - c d, rounded; where the rounded products are equal, the difference of their rounding
+/// errors, which is then the exact value (two fma, no fp64 needed).
 INLINE vreal edge_exact(vreal a, vreal b, vreal c, vreal d) {
   vreal ab = a * b, cd = c * d;
   return v_if_zero(ab - cd, v_fma(a, b, -ab) - v_fma(c, d, -cd));
@@ -61,7 +61,8 @@ INLINE void triangle_block(GLOBAL const float* v, GLOBAL const uint* prims, RayS
   vreal zero = v_splat(REAL(0.0));
   // Rounded differences may be 0 where the true value is not, but never have the wrong sign: this
   // mask is a superset of the hits.
-  uint inside = v_mask_le(zero, v_min(e0, v_min(e1, e2))) | v_mask_le(v_max(e0, v_max(e1, e2)), zero);
+  uint inside =
+      v_mask_le(zero, v_min(e0, v_min(e1, e2))) | v_mask_le(v_max(e0, v_max(e1, e2)), zero);
   if (inside == 0u) return;
   vreal smallest = v_min(v_max(e0, -e0), v_min(v_max(e1, -e1), v_max(e2, -e2)));
   if (inside & v_mask_le(smallest, zero)) {

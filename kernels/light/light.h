@@ -9,12 +9,12 @@
 
 /// One light sample as seen from a point.
 typedef struct LightSample {
-  real3 wi;        // unit, from the point to the light
-  real3 target;    // end of the shadow ray (offset from the light's surface), if not at infinity
-  real3 radiance;  // radiance; for delta lights irradiance on a plane facing the light
-  real pdf_w;      // [1/sr] pick included; delta lights: the probability of the pick
-  int delta;       // point or directional: cannot be found by chance
-  int at_infinity; // shadow ray goes on without end
+  real3 wi;         // unit, from the point to the light
+  real3 target;     // end of the shadow ray (offset from the light's surface), if not at infinity
+  real3 radiance;   // radiance; for delta lights irradiance on a plane facing the light
+  real pdf_w;       // [1/sr] pick included; delta lights: the probability of the pick
+  int delta;        // point or directional: cannot be found by chance
+  int at_infinity;  // shadow ray goes on without end
 } LightSample;
 
 /// Radiance that the surface gives off along w (unit, away from it).
@@ -34,7 +34,8 @@ INLINE uint light_pick(PRIVATE const SceneData* scene, real u) {
 
 /// Cone under which a sphere is seen from p: false from inside (then its area is sampled instead).
 /// 1 - cos is computed from sin^2, without cancellation however small the sphere (numerics 11).
-INLINE int sphere_cone(F4 center_radius, real3 p, PRIVATE real* sin2_max, PRIVATE real* one_minus_cos) {
+INLINE int sphere_cone(F4 center_radius, real3 p, PRIVATE real* sin2_max,
+                       PRIVATE real* one_minus_cos) {
   real3 to_center = load3(center_radius) - p;
   real d2 = dot3(to_center, to_center);
   real r = (real)center_radius.w;
@@ -78,8 +79,8 @@ INLINE real light_pdf_surface(PRIVATE const SceneData* scene, PRIVATE const Surf
 #endif
   real3 to_light = s->p - p;
   real cos_light = r_abs(dot3(s->ng, wi));
-  return (real)light.prob_pick * area_to_solid_angle(dot3(to_light, to_light), cos_light,
-                                                     surface_light_area(scene, light));
+  return (real)light.prob_pick *
+         area_to_solid_angle(dot3(to_light, to_light), cos_light, surface_light_area(scene, light));
 }
 
 /// Density of a direction that escaped to the environment.
@@ -104,8 +105,8 @@ INLINE void sample_surface_point(PRIVATE const SceneData* scene, Light light, re
                  area_to_solid_angle(d2, r_abs(cos_light), surface_light_area(scene, light));
 }
 
-INLINE void sample_triangle_light(PRIVATE const SceneData* scene, Light light, real3 p, real u, real v,
-                                  PRIVATE LightSample* out) {
+INLINE void sample_triangle_light(PRIVATE const SceneData* scene, Light light, real3 p, real u,
+                                  real v, PRIVATE LightSample* out) {
   Triangle tri = scene->triangles[light.prim];
   Surface s;
   surface_shape(scene, tri.shape, light.prim, &s);
@@ -115,8 +116,8 @@ INLINE void sample_triangle_light(PRIVATE const SceneData* scene, Light light, r
   sample_surface_point(scene, light, p, &s, out);
 }
 
-INLINE void sample_sphere_light(PRIVATE const SceneData* scene, Light light, real3 p, real u, real v,
-                                PRIVATE LightSample* out) {
+INLINE void sample_sphere_light(PRIVATE const SceneData* scene, Light light, real3 p, real u,
+                                real v, PRIVATE LightSample* out) {
   Quadric q = scene->quadrics[light.prim - scene->info.triangle_count];
   Surface s;
   surface_shape(scene, q.shape, light.prim, &s);
@@ -127,8 +128,8 @@ INLINE void sample_sphere_light(PRIVATE const SceneData* scene, Light light, rea
     real x = u * one_minus_cos;  // 1 - cos(theta)
     real cos_theta = REAL(1.0) - x;
     real sin2_theta = x * (REAL(2.0) - x);
-    real cos_alpha = sin2_theta / r_sqrt(sin2_max) +
-                     cos_theta * safe_sqrt(REAL(1.0) - sin2_theta / sin2_max);
+    real cos_alpha =
+        sin2_theta / r_sqrt(sin2_max) + cos_theta * safe_sqrt(REAL(1.0) - sin2_theta / sin2_max);
     real sin_alpha = safe_sqrt((REAL(1.0) - cos_alpha) * (REAL(1.0) + cos_alpha));
     SinCos phi = sincos_2pi(v);
     Frame frame = frame_from_normal(normalize3(p - load3(q.center_radius)));
@@ -146,14 +147,16 @@ INLINE void sample_disk_light(PRIVATE const SceneData* scene, Light light, real3
   Quadric q = scene->quadrics[light.prim - scene->info.triangle_count];
   Surface s;
   surface_shape(scene, q.shape, light.prim, &s);
-  disk_point(q, load3(q.center_radius) + to_world(frame_from_normal(load3(q.normal)),
-                                                  warp_disk(u, v) * (real)q.center_radius.w),
+  disk_point(q,
+             load3(q.center_radius) + to_world(frame_from_normal(load3(q.normal)),
+                                               warp_disk(u, v) * (real)q.center_radius.w),
              &s);
   sample_surface_point(scene, light, p, &s, out);
 }
 
 /// Samples one light from p. radiance = 0 where the sample carries nothing.
-INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, real pick, real u, real v) {
+INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, real pick, real u,
+                                real v) {
   LightSample out;
   out.wi = REAL3(0.0f, 0.0f, 1.0f);
   out.target = p;
@@ -163,13 +166,19 @@ INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, real pi
   Light light = scene->lights[light_pick(scene, pick)];
   switch (light.kind) {
 #if FEAT_LIGHT_TRIANGLE
-    case LIGHT_TRIANGLE: sample_triangle_light(scene, light, p, u, v, &out); break;
+    case LIGHT_TRIANGLE:
+      sample_triangle_light(scene, light, p, u, v, &out);
+      break;
 #endif
 #if FEAT_LIGHT_SPHERE
-    case LIGHT_SPHERE: sample_sphere_light(scene, light, p, u, v, &out); break;
+    case LIGHT_SPHERE:
+      sample_sphere_light(scene, light, p, u, v, &out);
+      break;
 #endif
 #if FEAT_LIGHT_DISK
-    case LIGHT_DISK: sample_disk_light(scene, light, p, u, v, &out); break;
+    case LIGHT_DISK:
+      sample_disk_light(scene, light, p, u, v, &out);
+      break;
 #endif
 #if FEAT_LIGHT_POINT
     case LIGHT_POINT: {
@@ -200,7 +209,8 @@ INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, real pi
       out.at_infinity = 1;
       break;
 #endif
-    default: break;
+    default:
+      break;
   }
   return out;
 }

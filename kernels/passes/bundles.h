@@ -1,5 +1,5 @@
-// Buffer bundles as kernel parameters. A parameter list ends with the launch struct, so every bundle may
-// end with a comma.
+// Buffer bundles as kernel parameters. A parameter list ends with the launch struct, so every
+// bundle may end with a comma.
 #ifndef PELLUCID_PASSES_BUNDLES_H
 #define PELLUCID_PASSES_BUNDLES_H
 
@@ -14,10 +14,10 @@
 
 #define SCENE_ASSIGN(T, name, meaning) scene_data.name = name;
 /// Declares `scene_data` from the kernel's parameters.
-#define SCENE_FROM_PARAMS      \
-  SceneData scene_data;        \
-  SCENE_BUFFERS(SCENE_ASSIGN)  \
-  scene_data.diag = diag;      \
+#define SCENE_FROM_PARAMS     \
+  SceneData scene_data;       \
+  SCENE_BUFFERS(SCENE_ASSIGN) \
+  scene_data.diag = diag;     \
   scene_data.info = scene_info;
 
 #endif

@@ -1,5 +1,5 @@
-// probe_layout: the device's own sizes and offsets of every shared struct, compared with the host's.
-// Writes: out [words]. Domain: 1. Next: nothing.
+// probe_layout: the device's own sizes and offsets of every shared struct, compared with the
+// host's. Writes: out [words]. Domain: 1. Next: nothing.
 #include "shared/layout.h"
 #include "shared/probe.h"
 

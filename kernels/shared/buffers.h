@@ -1,26 +1,27 @@
-// Bundles of buffers as X-macros: X(element type, name, meaning [shape]). One list yields the kernel
-// parameters, the device-side struct of pointers and the host binding; nobody counts arguments.
+// Bundles of buffers as X-macros: X(element type, name, meaning [shape]). One list yields the
+// kernel parameters, the device-side struct of pointers and the host binding; nobody counts
+// arguments.
 #ifndef PELLUCID_SHARED_BUFFERS_H
 #define PELLUCID_SHARED_BUFFERS_H
 
 #include "shared/layout.h"
 
 // Read only, made once by pack.
-#define SCENE_BUFFERS(X)                                                                      \
-  X(float, nodes, "BVH nodes [nodes][7][BVH_WIDTH]: x-, x+, y-, y+, z-, z+, child references")  \
-  X(float, leaves, "triangle blocks [blocks][3 vertices][3 axes][LEAF_WIDTH]")                \
-  X(uint, leaf_prims, "primitive ids [blocks][LEAF_WIDTH]")                                   \
-  X(Quadric, quadrics, "analytic surfaces [quadrics], in leaf order")                         \
-  X(Triangle, triangles, "triangles [triangles]")                                             \
-  X(F4, positions, "vertices [vertices], world units")                                        \
-  X(F4, normals, "unit vertex normals [vertices], only with FEAT_SMOOTH_NORMALS")             \
-  X(Shape, shapes, "shapes [shapes]")                                                         \
-  X(Material, materials, "materials [materials]")                                             \
+#define SCENE_BUFFERS(X)                                                                       \
+  X(float, nodes, "BVH nodes [nodes][7][BVH_WIDTH]: x-, x+, y-, y+, z-, z+, child references") \
+  X(float, leaves, "triangle blocks [blocks][3 vertices][3 axes][LEAF_WIDTH]")                 \
+  X(uint, leaf_prims, "primitive ids [blocks][LEAF_WIDTH]")                                    \
+  X(Quadric, quadrics, "analytic surfaces [quadrics]")                                         \
+  X(Triangle, triangles, "triangles [triangles]")                                              \
+  X(F4, positions, "vertices [vertices], world units")                                         \
+  X(F4, normals, "unit vertex normals [vertices], only with FEAT_SMOOTH_NORMALS")              \
+  X(Shape, shapes, "shapes [shapes]")                                                          \
+  X(Material, materials, "materials [materials]")                                              \
   X(Light, lights, "lights with their alias table [lights]")
 
 // Read and written by the passes of an iteration.
-#define FILM_BUFFERS(X)                                                                 \
-  X(F4, samples, "radiance of this iteration, w: rays traced for it [pixels]")          \
+#define FILM_BUFFERS(X)                                                        \
+  X(F4, samples, "radiance of this iteration, w: rays traced for it [pixels]") \
   X(FilmPixel, film, "accumulators [pixels]")
 
 #define SPLAT_BUFFERS(X) \
@@ -29,12 +30,12 @@
 #define DIAG_BUFFERS(X) X(uint, diag, "counters of what went wrong [DIAG_COUNT]")
 
 // Counters: X(name, is an error, meaning). Errors fail a render under --strict.
-#define DIAG_COUNTERS(X)                                                                   \
-  X(nonfinite, 1, "samples dropped because they were NaN or infinite")                     \
-  X(negative, 1, "samples dropped because they were negative")                             \
-  X(stack_overflow, 1, "BVH subtrees skipped because the traversal stack was full")        \
-  X(path_stuck, 1, "paths ended by the hard limit on path length")                         \
-  X(splat_outside, 1, "splats dropped because their pixel is outside the film")            \
+#define DIAG_COUNTERS(X)                                                            \
+  X(nonfinite, 1, "samples dropped because they were NaN or infinite")              \
+  X(negative, 1, "samples dropped because they were negative")                      \
+  X(stack_overflow, 1, "BVH subtrees skipped because the traversal stack was full") \
+  X(path_stuck, 1, "paths ended by the hard limit on path length")                  \
+  X(splat_outside, 1, "splats dropped because their pixel is outside the film")     \
   X(splat_saturated, 1, "splats cut because they exceed the fixed-point range")
 
 #define DIAG_ENUM(name, error, meaning) DIAG_##name,

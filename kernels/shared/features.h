@@ -1,5 +1,6 @@
-// The one list of everything that can be compiled into or out of a kernel. Host enum, log, --features,
-// docs and the kernels' prelude all expand from it. Every flag is always defined, 0 or 1: kernels say
+// The one list of everything that can be compiled into or out of a kernel. Host enum, log,
+// --features, docs and the kernels' prelude all expand from it. Every flag is always defined, 0 or
+// 1: kernels say
 // `#if FEAT_X`, never `#ifdef`.
 #ifndef PELLUCID_SHARED_FEATURES_H
 #define PELLUCID_SHARED_FEATURES_H

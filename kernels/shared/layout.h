@@ -1,5 +1,5 @@
-// Every struct that crosses between host and kernels, written once. Fields are 32-bit scalars, F4 or
-// U4 in 16-byte rows; enums are #defines that the packer range-checks; padding is spelled out.
+// Every struct that crosses between host and kernels, written once. Fields are 32-bit scalars, F4
+// or U4 in 16-byte rows; enums are #defines that the packer range-checks; padding is spelled out.
 #ifndef PELLUCID_SHARED_LAYOUT_H
 #define PELLUCID_SHARED_LAYOUT_H
 
@@ -14,7 +14,8 @@
 /// "No such index" for every reference.
 #define NONE 0xffffffffu
 
-// ---- geometry -------------------------------------------------------------------------------------
+// ---- geometry
+// -------------------------------------------------------------------------------------
 
 /// A triangle of the scene; primitive ids 0 .. triangle_count-1. Written by pack.
 typedef struct Triangle {
@@ -48,34 +49,36 @@ typedef struct Shape {
 } Shape;
 LAYOUT_CHECK(Shape, 16);
 
-// Reference from a node to a child: bit 31 leaf, bits 30-28 kind, bits 27-26 blocks-1, bits 25-0 index.
-// Kinds leave room for instances and for leaves whose hits a filter may refuse.
+// Reference from a node to a child: bit 31 leaf, bits 30-28 kind, bits 27-26 blocks-1, bits 25-0
+// index. Kinds leave room for instances and for leaves whose hits a filter may refuse.
 #define REF_LEAF 0x80000000u
 #define REF_KIND_SHIFT 28u
 #define REF_KIND_MASK 7u
 #define REF_COUNT_SHIFT 26u
 #define REF_COUNT_MASK 3u
 #define REF_INDEX_MASK 0x03ffffffu
-#define REF_EMPTY 0xffffffffu   // slot without a child: its box is inverted, so it is never entered
-#define LEAF_TRIANGLES 0u       // blocks of LEAF_WIDTH triangles from `index`
-#define LEAF_QUADRICS 1u        // (blocks-1)+1 quadrics from `index`
+#define REF_EMPTY 0xffffffffu  // slot without a child: its box is inverted, so it is never entered
+#define LEAF_TRIANGLES 0u      // blocks of LEAF_WIDTH triangles from `index`
+#define LEAF_QUADRICS 1u       // the quadric `index`
 
-// ---- materials and lights -------------------------------------------------------------------------
+// ---- materials and lights
+// -------------------------------------------------------------------------
 
 #define MATERIAL_DIFFUSE 0u
 #define MATERIAL_PHONG 1u
 #define MATERIAL_MIRROR 2u
-#define MATERIAL_CONDUCTOR 3u         // smooth: delta
+#define MATERIAL_CONDUCTOR 3u  // smooth: delta
 #define MATERIAL_ROUGH_CONDUCTOR 4u
-#define MATERIAL_DIELECTRIC 5u        // smooth: delta
+#define MATERIAL_DIELECTRIC 5u  // smooth: delta
 #define MATERIAL_ROUGH_DIELECTRIC 6u
 /// Written by pack; colours linear Rec.709.
 typedef struct Material {
-  uint kind;      // MATERIAL_*
-  float alpha;    // GGX width, >= ALPHA_DELTA for rough kinds
-  float ior;      // dielectric: index inside over outside
-  float survive;  // roulette: probability to go on after scattering here, local and so reversible, (0,1]
-  F4 reflectance;   // diffuse, mirror, Phong diffuse part; w: Phong: probability of the diffuse lobe
+  uint kind;       // MATERIAL_*
+  float alpha;     // GGX width, >= ALPHA_DELTA for rough kinds
+  float ior;       // dielectric: index inside over outside
+  float survive;   // roulette: probability to go on after scattering here, local and so reversible,
+                   // (0,1]
+  F4 reflectance;  // diffuse, mirror, Phong diffuse part; w: Phong: probability of the diffuse lobe
   F4 eta_specular;  // conductor eta; Phong specular strength, w: Phong exponent
   F4 k;             // conductor k
 } Material;
@@ -89,16 +92,17 @@ LAYOUT_CHECK(Material, 64);
 #define LIGHT_ENVIRONMENT 5u
 /// One light; an emitting mesh is one light per triangle. Written by pack.
 typedef struct Light {
-  uint kind;      // LIGHT_*
-  uint prim;      // primitive id of an emitting surface
-  float prob_pick;   // probability of this light among all; the same in every method
-  uint alias;     // alias table: the light to take instead of this slot ...
-  F4 value;       // radiance [W/(m^2 sr)], intensity [W/sr] or irradiance [W/m^2]; w: alias threshold
-  F4 position;    // point: position; directional: unit direction in which light travels
+  uint kind;        // LIGHT_*
+  uint prim;        // primitive id of an emitting surface
+  float prob_pick;  // probability of this light among all; the same in every method
+  uint alias;       // alias table: the light to take instead of this slot ...
+  F4 value;     // radiance [W/(m^2 sr)], intensity [W/sr] or irradiance [W/m^2]; w: alias threshold
+  F4 position;  // point: position; directional: unit direction in which light travels
 } Light;
 LAYOUT_CHECK(Light, 48);
 
-// ---- whole scene and launch -----------------------------------------------------------------------
+// ---- whole scene and launch
+// -----------------------------------------------------------------------
 
 /// Facts of the scene that every pass gets by value. Written by pack.
 typedef struct SceneInfo {
@@ -111,12 +115,13 @@ typedef struct SceneInfo {
 } SceneInfo;
 LAYOUT_CHECK(SceneInfo, 48);
 
-/// Pinhole camera as increments over pixels: direction(x, y) = corner + x dx + y dy, not normalised,
-/// x and y in pixels from the top left. Written by pack.
+/// Pinhole camera as increments over pixels: direction(x, y) = corner + x dx + y dy, not
+/// normalised, x and y in pixels from the top left. Written by pack.
 typedef struct Camera {
   F4 origin;
   F4 corner, dx, dy;
-  F4 forward;  // unit; w: distance of the image plane in pixels, [Georgiev12] D = W / (2 tan(fov/2))
+  F4 forward;  // unit; w: distance of the image plane in pixels, [Georgiev12] D = W / (2
+               // tan(fov/2))
 } Camera;
 LAYOUT_CHECK(Camera, 80);
 
@@ -135,8 +140,8 @@ typedef struct Launch {
 } Launch;
 LAYOUT_CHECK(Launch, 32);
 
-/// Accumulators of one pixel: each sum as high + low float, so that it neither stalls nor needs fp64.
-/// Written by film_add.
+/// Accumulators of one pixel: each sum as high + low float, so that it neither stalls nor needs
+/// fp64. Written by film_add.
 typedef struct FilmPixel {
   F4 sum, sum_low;        // radiance, W/(m^2 sr); w unused
   F4 square, square_low;  // squares of the iterations' totals; w unused

@@ -5,17 +5,18 @@
 /// Half an ulp at 1 in float: the unit roundoff of all bounds below.
 #define UNIT_ROUNDOFF 5.9604644775390625e-8f /* 2^-24 */
 
-/// Error of a point rebuilt from barycentrics, in unit roundoffs of sum |b_i v_i|: 7 would do for the
-/// three products and two sums [PBRT4 6.8.5]; 10 leaves room for weights that do not add up to 1 and
-/// for rounding the offset point itself.
+/// Error of a point rebuilt from barycentrics, in unit roundoffs of sum |b_i v_i|: 7 would do for
+/// the three products and two sums [PBRT4 6.8.5]; 10 leaves room for weights that do not add up to
+/// 1 and for rounding the offset point itself.
 #define POINT_ERROR_ULPS 10.0f
 
-/// Padding of boxes, in unit roundoffs of (|origin| + largest |coordinate|): 3 for 1/d, 1 for o/d, 1 for
-/// the fma, 2 for the leaf's own translation; 8 rounds up.
+/// Padding of boxes, in unit roundoffs of (|origin| + largest |coordinate|): 3 for 1/d, 1 for o/d,
+/// 1 for the fma, 2 for the leaf's own translation; 8 rounds up.
 #define BOX_PAD_ULPS 8.0f
 /// The far side of a box also grows by its own rounding: 2 ulps of 1/d and one of the fma.
 #define BOX_FAR_SCALE 1.0000004f
-/// Smallest |direction component| of a unit direction: below it 1/d would overflow against coordinates.
+/// Smallest |direction component| of a unit direction: below it 1/d would overflow against
+/// coordinates.
 #define DIRECTION_MIN 1e-18f
 
 /// GGX below this width is packed as a delta: half-vector cosines lose it in float (numerics 12).

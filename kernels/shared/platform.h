@@ -1,6 +1,6 @@
-// What differs between OpenCL C and C++ for code that both compile: scalar, vector and address-space
-// names. Kernel files are compiled three times: as OpenCL C, and (the twin) as host C++ with `real` =
-// float and double. Nothing else may ask which language it is in.
+// What differs between OpenCL C and C++ for code that both compile: scalar, vector and
+// address-space names. Kernel files are compiled three times: as OpenCL C, and (the twin) as host
+// C++ with `real` = float and double. Nothing else may ask which language it is in.
 #ifndef PELLUCID_SHARED_PLATFORM_H
 #define PELLUCID_SHARED_PLATFORM_H
 

@@ -1,5 +1,5 @@
-// Weights for combining two ways to sample one path [Veach97 ch. 9], written in ratios so that large and
-// tiny densities neither overflow nor vanish (numerics 7).
+// Weights for combining two ways to sample one path [Veach97 ch. 9], written in ratios so that
+// large and tiny densities neither overflow nor vanish (numerics 7).
 #ifndef PELLUCID_TRANSPORT_MIS_H
 #define PELLUCID_TRANSPORT_MIS_H
 

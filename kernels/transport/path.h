@@ -1,5 +1,5 @@
-// Paths from the camera: `naive`, `nee`, `path` and `reference` as one walk whose parts are compiled in
-// by INTG_NEE (light samples), INTG_MIS (weigh them against chance) and INTG_UNIFORM.
+// Paths from the camera: `naive`, `nee`, `path` and `reference` as one walk whose parts are
+// compiled in by INTG_NEE (light samples), INTG_MIS (weigh them against chance) and INTG_UNIFORM.
 #ifndef PELLUCID_TRANSPORT_PATH_H
 #define PELLUCID_TRANSPORT_PATH_H
 
@@ -14,11 +14,12 @@ typedef struct Walk {
   real3 beta;      // throughput
   real3 radiance;  // gathered so far
   real3 p_prev;    // last vertex, from which NEE would have drawn
-  real pdf_w;      // density of ray.d by the walk, survival included; 0 after delta or at the camera
+  real pdf_w;  // density of ray.d by the walk, survival included; 0 after delta or at the camera
   uint rays;
 } Walk;
 
-/// Weight of emission that the walk found by chance; `pdf_light` is NEE's density for the same direction.
+/// Weight of emission that the walk found by chance; `pdf_light` is NEE's density for the same
+/// direction.
 INLINE real chance_weight(Launch launch, PRIVATE const Walk* walk, real pdf_light) {
 #if INTG_MIS
   return walk->pdf_w == REAL(0.0) ? REAL(1.0) : mis_weight(launch.mis, walk->pdf_w, pdf_light, 0);
@@ -78,15 +79,14 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
   if (bvh_trace(scene, shadow, 1).prim != NONE) return;
   real w = REAL(1.0);
 #if INTG_MIS
-  if (!light.delta)
-    w = mis_weight(launch.mis, light.pdf_w, e.pdf_w * (real)v->material.survive, 1);
+  if (!light.delta) w = mis_weight(launch.mis, light.pdf_w, e.pdf_w * (real)v->material.survive, 1);
 #endif
   walk->radiance += walk->beta * e.f * light.radiance * (cos_wi * w / light.pdf_w);
 #endif
 }
 
-/// Scatters at the vertex: roulette by the material's own survival probability (local, so that a walk
-/// from the other end knows it too), then a direction. 0 ends the walk.
+/// Scatters at the vertex: roulette by the material's own survival probability (local, so that a
+/// walk from the other end knows it too), then a direction. 0 ends the walk.
 INLINE int walk_scatter(Rng rng, uint bounce, PRIVATE const Vertex* v, PRIVATE Walk* walk) {
   Random4 u = rng4(rng, DIM_BSDF(bounce));
 #if INTG_UNIFORM

@@ -1,0 +1,139 @@
+// Parsers of option values; strict, because a typing error must not become another render.
+#include "apps/common.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace pellucid {
+namespace {
+
+constexpr int LARGEST_SIDE = 65536;  // pixels; beyond it a float image of this width is a mistake
+
+[[noreturn]] void refuse(std::string_view option, const std::string& text, const char* accepted) {
+  throw UsageError(fmt::format("{} takes {}, not '{}'", option, accepted, text));
+}
+
+/// Reads a finite number from the front of `rest` and removes it. from_chars knows no locale and
+/// takes no leading space or plus sign.
+bool take_number(std::string_view& rest, double& value) {
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+  if (error != std::errc() || !std::isfinite(value)) return false;
+  rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+  return true;
+}
+
+/// Removes and returns the letters at the front of `rest`.
+std::string_view take_letters(std::string_view& rest) {
+  std::size_t count = 0;
+  while (count < rest.size() && std::isalpha(static_cast<unsigned char>(rest[count]))) ++count;
+  const std::string_view letters = rest.substr(0, count);
+  rest.remove_prefix(count);
+  return letters;
+}
+
+/// Seconds per unit; 0 for an unknown one.
+double seconds_of(std::string_view unit) {
+  if (unit == "ms") return 1e-3;
+  if (unit == "s") return 1.0;
+  if (unit == "m" || unit == "min") return 60.0;
+  if (unit == "h") return 3600.0;
+  if (unit == "d") return 86400.0;
+  return 0.0;
+}
+
+/// Power of 1024 per prefix; -1 for an unknown one.
+int power_of(std::string_view unit) {
+  if (unit.empty() || unit == "B") return 0;
+  const std::size_t power = std::string_view("KMGT").find(static_cast<char>(std::toupper(unit[0])));
+  const std::string_view tail = unit.substr(1);
+  const bool known =
+      power != std::string_view::npos && (tail.empty() || tail == "B" || tail == "iB");
+  return known ? static_cast<int>(power) + 1 : -1;
+}
+
+}  // namespace
+
+double parse_number(std::string_view option, const std::string& text) {
+  std::string_view rest = text;
+  double value = 0;
+  if (!take_number(rest, value) || !rest.empty()) refuse(option, text, "a number such as 1e-3");
+  return value;
+}
+
+double parse_fraction(std::string_view option, const std::string& text) {
+  std::string_view rest = text;
+  double value = 0;
+  if (!take_number(rest, value) || !(rest.empty() || rest == "%"))
+    refuse(option, text, "a number such as 0.01 or 1%");
+  return rest.empty() ? value : value / 100.0;
+}
+
+double parse_duration(std::string_view option, const std::string& text) {
+  const char* accepted = "a time such as 90, 60s, 10m or 1h30m";
+  std::string_view rest = text;
+  double total = 0;
+  do {
+    double value = 0;
+    if (!take_number(rest, value) || value < 0 || std::signbit(value))
+      refuse(option, text, accepted);
+    if (rest.empty() && total == 0) return value;  // a bare number means seconds
+    const double unit = seconds_of(take_letters(rest));
+    if (unit == 0) refuse(option, text, accepted);
+    total += value * unit;
+  } while (!rest.empty());
+  return total;
+}
+
+std::uint64_t parse_bytes(std::string_view option, const std::string& text) {
+  constexpr double LIMIT = 9007199254740992.0;  // 2^53: up to there double counts every byte
+  std::string_view rest = text;
+  double value = 0;
+  const bool number = take_number(rest, value);
+  const int power = number ? power_of(rest) : -1;
+  const double bytes = std::ldexp(value, 10 * std::max(power, 0));
+  if (power < 0 || !(bytes >= 1 && bytes <= LIMIT))
+    refuse(option, text, "a size such as 512M or 2G");
+  return static_cast<std::uint64_t>(bytes);
+}
+
+std::pair<int, int> parse_size(std::string_view option, const std::string& text) {
+  const char* accepted = "a size in pixels such as 640x480 (each side 1 to 65536)";
+  const auto side = [&](std::string_view part) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    const bool whole = error == std::errc() && end == part.data() + part.size();
+    if (!whole || value < 1 || value > LARGEST_SIDE) refuse(option, text, accepted);
+    return value;
+  };
+  const std::size_t cross = text.find('x');
+  if (cross == std::string::npos) refuse(option, text, accepted);
+  const std::string_view view = text;
+  return {side(view.substr(0, cross)), side(view.substr(cross + 1))};
+}
+
+void print_result(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0)
+    throw OutputError("cannot write to standard output: " + system_reason(errno));
+}
+
+void write_json(const std::string& destination, const nlohmann::json& document) {
+  if (destination.empty()) return;
+  nlohmann::ordered_json whole;
+  whole["schema"] = 1;
+  for (const auto& [key, value] : document.items()) whole[key] = value;
+  const std::string text =
+      whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+  if (destination == "-") return print_result(text);
+  write_text_atomic(destination, text);
+}
+
+}  // namespace pellucid

@@ -1,0 +1,33 @@
+// What commands share: option values as people write them, and results on stdout or in a file.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace pellucid {
+
+/// All parsers name `option` in the UsageError they throw, say what is accepted, and take the whole
+/// text or nothing.
+
+/// A finite number: "1e-3".
+double parse_number(std::string_view option, const std::string& text);
+/// A number or a percentage: "1%" is 0.01.
+double parse_fraction(std::string_view option, const std::string& text);
+/// Seconds from "90", "60s", "500ms", "10m", "1h", "1.5d", "1h30m"; not negative.
+double parse_duration(std::string_view option, const std::string& text);
+/// Bytes from "4096", "512K", "2G", "1.5GiB", "100MB"; all prefixes are powers of 1024; at least 1.
+std::uint64_t parse_bytes(std::string_view option, const std::string& text);
+/// Width and height in pixels from "640x480", each 1 to 65536.
+std::pair<int, int> parse_size(std::string_view option, const std::string& text);
+
+/// Writes to stdout at once. Throws OutputError if it is full or closed.
+void print_result(std::string_view text);
+
+/// The document with "schema": 1 put in front, indented, into a file (atomically) or, for "-", to
+/// stdout; does nothing for "". Non-finite numbers become null. Throws OutputError.
+void write_json(const std::string& destination, const nlohmann::json& document);
+
+}  // namespace pellucid

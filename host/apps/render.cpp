@@ -1,0 +1,237 @@
+// render: from a scene to pictures.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+#include "apps/common.h"
+#include "apps/render_report.h"
+#include "apps/scene_input.h"
+#include "base/log.h"
+#include "base/signals.h"
+#include "base/text.h"
+#include "base/timer.h"
+#include "image/tonemap.h"
+#include "integrators/reach.h"
+#include "integrators/registry.h"
+
+namespace pellucid {
+namespace {
+
+struct RenderCommand {
+  std::string scene, integrator, mis = "balance", time, size, device, features = "auto", kernel_dir,
+                                 stats;
+  std::vector<std::string> outputs, aovs;
+  std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 64;
+  bool strict = false, deterministic = false;
+
+  void declare(CLI::App& app);
+  ExitCode run(const CommonOptions& common) const;
+
+ private:
+  RenderOptions options(const Scene& scene, const Integrator& method) const;
+  std::vector<std::string> output_names(const Scene& scene) const;
+  void check_aovs() const;
+};
+
+void RenderCommand::declare(CLI::App& app) {
+  app.add_option("SCENE", scene, "scene file (.json), or the name of a shipped scene")->required();
+  std::string methods;
+  for (const Integrator& i : integrators())
+    methods += fmt::format("{}{}: {}", methods.empty() ? "" : "; ", i.name, i.summary);
+  app.add_option("-i,--integrator", integrator, methods + ". Default: the scene's, else path")
+      ->type_name("NAME");
+  app.add_option("--mis", mis, "how `path` weighs its two strategies: balance, power or max")
+      ->type_name("RULE");
+  app.add_option("--spp", spp, "samples per pixel (default: the scene's, else 64)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));
+  app.add_option("--time", time,
+                 "stop after this long, e.g. 60s or 10m; with --spp, whichever is first")
+      ->type_name("DURATION");
+  app.add_option("--seed", seed, "random seed (default 0)");
+  app.add_option("--size", size, "image size in pixels, e.g. 640x480 (default: the scene's)")
+      ->type_name("WxH");
+  app.add_option("--max-depth", max_depth,
+                 "longest path in segments, an emitter seen directly has 1 (default: the scene's, "
+                 "else unlimited)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xfffffffe}));
+  app.add_option(
+         "-o,--output", outputs,
+         "picture to write, type by suffix; repeatable (default: SCENE.exr and SCENE.png here)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  app.add_option("--aov", aovs, "further EXR channels: variance (of each pixel's mean), samples")
+      ->type_name("LIST")
+      ->delimiter(',');
+  app.add_option("--device", device, "OpenCL device: index as in `devices`, or part of its name")
+      ->type_name("SPEC")
+      ->envname("PELLUCID_DEVICE");
+  app.add_option(
+         "--features", features,
+         "what kernels hold: auto (what the scene needs), all, or a list like +phong,+disks")
+      ->type_name("LIST");
+  app.add_option("--work-group", group,
+                 "work-items per group; changes speed, never the image (default 64)")
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--kernel-dir", kernel_dir, "read kernels from this folder instead of the program")
+      ->type_name("DIR");
+  app.add_option("--stats", stats, "write statistics of the render as JSON")->type_name("FILE");
+  app.add_flag("--strict", strict, "device counters and warnings are errors");
+  app.add_flag("--deterministic", deterministic, "leave time, host and device out of the image");
+  app.footer("Example: pellucid render cornell-box --spp 128 -o box.exr -o box.png");
+}
+
+uint parse_mis(const std::string& text, const Integrator& method) {
+  if (text != "balance" && text != "power" && text != "max")
+    throw UsageError("--mis: '" + text + "' is none of balance, power, max." +
+                     did_you_mean(text, {"balance", "power", "max"}));
+  if (text != "balance" && !method.weighs)
+    throw UsageError("--mis " + text + " has no effect on '" + method.name +
+                     "', which combines nothing");
+  return text == "power" ? MIS_POWER : text == "max" ? MIS_MAX : MIS_BALANCE;
+}
+
+RenderOptions RenderCommand::options(const Scene& s, const Integrator& method) const {
+  constexpr std::uint64_t default_spp = 64;
+  RenderOptions o;
+  o.width = s.settings.width;
+  o.height = s.settings.height;
+  if (!time.empty()) o.seconds = parse_duration("--time", time);
+  if (spp) o.spp = spp;
+  if (!o.spp && !o.seconds) o.spp = s.settings.spp ? std::uint64_t(*s.settings.spp) : default_spp;
+  o.seed = seed;
+  if (max_depth) o.max_depth = uint(max_depth);
+  if (!max_depth && s.settings.max_depth) o.max_depth = uint(*s.settings.max_depth);
+  o.mis = parse_mis(mis, method);
+  o.plan.extra_features = parse_feature_request(features);
+  o.plan.kernel_dir = kernel_dir;
+  o.plan.group = group;
+  return o;
+}
+
+std::vector<std::string> RenderCommand::output_names(const Scene& s) const {
+  if (outputs.empty()) return {s.name + ".exr", s.name + ".png"};
+  for (const std::string& name : outputs) {
+    const size_t slash = name.rfind('/'), dot = name.rfind('.');
+    if (dot == std::string::npos || (slash != std::string::npos && dot < slash))
+      throw UsageError("-o " + name + ": the suffix tells the type, e.g. .exr or .png");
+  }
+  return outputs;
+}
+
+void RenderCommand::check_aovs() const {
+  for (const std::string& aov : aovs)
+    if (aov != "variance" && aov != "samples")
+      throw UsageError("--aov: there is no '" + aov + "'; there are variance, samples." +
+                       did_you_mean(aov, {"variance", "samples"}));
+}
+
+bool display_referred(const std::string& path) {
+  const std::string suffix = path.substr(path.rfind('.') + 1);
+  return suffix != "exr" && suffix != "hdr" && suffix != "pfm" && suffix != "tif" &&
+         suffix != "tiff";
+}
+
+/// Writes every output of a film; facts carry the evidence.
+void write_outputs(const std::vector<FilmPixel>& film, const std::vector<std::string>& names,
+                   const std::vector<std::string>& aovs, bool deterministic,
+                   const RenderFacts& facts) {
+  const auto asked = [&](const char* aov) {
+    return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
+  };
+  Image image = film_image(film, facts.options.width, facts.options.height, asked("variance"),
+                           asked("samples"));
+  add_evidence(facts, deterministic, image);
+  for (const std::string& name : names)
+    write_image(name, display_referred(name) ? to_display(image) : image);
+}
+
+void log_result(const RenderFacts& f) {
+  log_info("{} spp of {}x{} by {} in {}: {:.2f} Mpaths/s, {:.2f} Mrays/s{}", f.film.iterations,
+           f.options.width, f.options.height, f.integrator->name, format_seconds(f.seconds.render),
+           1e-6 * double(f.film.iterations) * f.options.width * f.options.height / f.seconds.render,
+           1e-6 * double(f.film.rays) / f.seconds.render,
+           std::isfinite(f.film.relmse)
+               ? fmt::format(", noise about {:.2g} %", 100 * std::sqrt(f.film.relmse))
+               : "");
+  const std::string counters = describe_counters(f.session->counters());
+  if (!counters.empty()) log_warn("device counters: {}", counters);
+}
+
+ExitCode RenderCommand::run(const CommonOptions& common) const {
+  const Timer total;
+  check_aovs();
+  StopSignal signal;
+  RenderFacts facts;
+  Scene s = open_scene(scene);
+  if (!size.empty()) std::tie(s.settings.width, s.settings.height) = parse_size("--size", size);
+  const Integrator& method = find_integrator(
+      !integrator.empty() ? integrator : s.settings.integrator.value_or(default_integrator()));
+  facts.options = options(s, method);
+  const std::vector<std::string> names = output_names(s);
+  if (strict && !s.warnings.empty()) throw InputError("--strict: the warnings above are errors");
+  facts.scene = &s;
+  facts.integrator = &method;
+  facts.scene_hash = scene_hash(s);
+  facts.seconds.load = total.seconds();
+
+  const Device target = Device::open(device);
+  facts.device = &target.info();
+  Timer phase;
+  const PackedScene packed = [&] {
+    Progress progress("building BVH");
+    return pack_scene(s, {simd_width_for(target.info())});
+  }();
+  facts.seconds.bvh = phase.seconds();
+
+  auto session = [&] {
+    Progress progress("building kernels");
+    return Session(target, packed, method, facts.options);
+  }();
+  facts.session = &session;
+  facts.seconds.kernels = session.kernel_seconds();
+  bool complete = false;
+  {
+    Progress progress(fmt::format("{} on {}", method.name, target.info().spec()));
+    RenderHooks hooks;
+    hooks.stop = [&] { return signal.stop_requested(); };
+    hooks.progress = [&](const std::string& text) { progress.update(text); };
+    hooks.wants_image = [&] { return signal.take_write_request(); };
+    hooks.image = [&](const std::vector<FilmPixel>& film) {
+      facts.film = summarise(film);
+      write_outputs(film, names, aovs, deterministic, facts);
+    };
+    complete = session.run(hooks);
+  }
+  facts.seconds.render = session.render_seconds();
+  phase = Timer();
+  const std::vector<FilmPixel> film = session.film();
+  facts.film = summarise(film);
+  write_outputs(film, names, aovs, deterministic, facts);
+  facts.seconds.write = phase.seconds();
+  facts.seconds.total = total.seconds();
+
+  log_result(facts);
+  for (const std::string& what : unreachable_paths(method, packed.features))
+    log_info("'{}' cannot see {}", method.name, what);
+  nlohmann::json document = render_stats(facts);
+  document["outputs"] = names;
+  document["complete"] = complete;
+  write_json(stats, document);
+  write_json(common.json, document);
+  if (common.wants_text())
+    for (const std::string& name : names) print_result(name + "\n");
+  if (strict && error_count(session.counters()) > 0)
+    throw NumericError("--strict: " + describe_counters(session.counters()));
+  return complete ? ExitCode::done : ExitCode::stopped;
+}
+
+}  // namespace
+
+CommandRun setup_render(CLI::App& app) {
+  auto command = std::make_shared<RenderCommand>();
+  command->declare(app);
+  return [command](const CommonOptions& common) { return command->run(common); };
+}
+
+}  // namespace pellucid

@@ -1,0 +1,131 @@
+// Evidence and statistics of a render.
+#include "apps/render_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/version.h"
+
+namespace pellucid {
+namespace {
+
+const char* mis_name(uint mis) {
+  return mis == MIS_POWER ? "power" : mis == MIS_MAX ? "max" : "balance";
+}
+
+/// World to camera space (x right, y up, looking down -z), for row vectors as OpenEXR has it: p' =
+/// p M.
+glm::dmat4 world_to_camera(const Camera& camera) {
+  const glm::dvec3 axes[3] = {camera.right, camera.up, -camera.forward};
+  glm::dmat4 m(1.0);  // m[column][row] of the column-vector form
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) m[column][row] = axes[row][column];
+    m[3][row] = -glm::dot(axes[row], camera.origin);
+  }
+  return m;
+}
+
+/// Perspective to x, y in [-1, 1] (y up) over the image.
+glm::dmat4 camera_to_ndc(const ::Camera& camera, int width, int height) {
+  const double distance = camera.forward.w;
+  glm::dmat4 m(0.0);
+  m[0][0] = 2 * distance / width;
+  m[1][1] = 2 * distance / height;
+  m[2][2] = -1.0;
+  m[2][3] = -1.0;
+  return m;
+}
+
+/// GLM keeps columns of the column-vector form: read in order, that is the row-vector matrix by
+/// rows.
+std::vector<float> row_vector_matrix(const glm::dmat4& m) {
+  std::vector<float> out;
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 4; ++r) out.push_back(float(m[c][r]));
+  return out;
+}
+
+std::string counters_text(const std::vector<Counter>& counters) {
+  const std::string text = describe_counters(counters);
+  return text.empty() ? "all zero" : text;
+}
+
+}  // namespace
+
+void add_evidence(const RenderFacts& f, bool deterministic, Image& image) {
+  auto& meta = image.metadata;
+  const Camera& camera = f.scene->camera;
+  const PackedScene lens = [&] {
+    Scene only_camera;
+    only_camera.camera = camera;
+    only_camera.settings = f.scene->settings;
+    return pack_scene(only_camera, {4});
+  }();
+  const glm::dmat4 to_camera = world_to_camera(camera);
+  meta["samplesPerPixel"] = int(f.film.iterations);
+  meta["worldToCamera"] = row_vector_matrix(to_camera);
+  meta["worldToNDC"] =
+      row_vector_matrix(camera_to_ndc(lens.camera, f.options.width, f.options.height) * to_camera);
+  meta["pellucid:version"] = std::string(version()) + " " + commit();
+  meta["pellucid:scene"] = f.scene->name;
+  meta["pellucid:sceneHash"] = f.scene_hash;
+  meta["pellucid:settings"] = fmt::format(
+      "{}x{} max-depth {} mis {} filter box sampler random", f.options.width, f.options.height,
+      f.options.max_depth ? std::to_string(*f.options.max_depth) : "unlimited",
+      mis_name(f.options.mis));
+  meta["pellucid:integrator"] = f.integrator->name;
+  meta["pellucid:seed"] = std::to_string(f.options.seed);
+  meta["pellucid:passes"] = fmt::format("0:{}", f.film.iterations);
+  meta["pellucid:features"] = f.session->plan().specialisation().features.describe();
+  meta["pellucid:floatMode"] = std::string("strict");
+  meta["pellucid:counters"] = counters_text(f.session->counters());
+  if (std::isfinite(f.film.relmse)) meta["pellucid:relmseEstimate"] = float(f.film.relmse);
+  if (deterministic) return;
+  meta["renderTimeSeconds"] = float(f.seconds.render);
+  meta["pellucid:device"] = f.device->name;
+  meta["pellucid:driver"] = f.device->platform_name + " " + f.device->driver;
+}
+
+nlohmann::json render_stats(const RenderFacts& f) {
+  using nlohmann::json;
+  json features = json::object();
+  const FeatureSet set = f.session->plan().specialisation().features;
+  for (unsigned i = 0; i < FEATURE_COUNT; ++i)
+    features[feature_word(static_cast<Feature>(i))] = set.has(static_cast<Feature>(i));
+  json counters = json::object();
+  for (const Counter& c : f.session->counters()) counters[c.name] = c.count;
+  json passes = json::array();
+  for (const PassState& p : f.session->plan().passes())
+    passes.push_back(
+        {{"name", p.pass.name}, {"seconds", p.time.seconds}, {"launches", p.time.launches}});
+  const double pixels = double(f.options.width) * f.options.height;
+  return {{"scene", f.scene->name},
+          {"scene_hash", f.scene_hash},
+          {"integrator", f.integrator->name},
+          {"width", f.options.width},
+          {"height", f.options.height},
+          {"seed", f.options.seed},
+          {"spp", f.film.iterations},
+          {"paths", std::uint64_t(pixels) * f.film.iterations},
+          {"rays", f.film.rays},
+          {"mean", f.film.mean},
+          {"seconds",
+           {{"load", f.seconds.load},
+            {"bvh", f.seconds.bvh},
+            {"kernels", f.seconds.kernels},
+            {"render", f.seconds.render},
+            {"write", f.seconds.write},
+            {"total", f.seconds.total}}},
+          {"passes", passes},
+          {"features", features},
+          {"counters", counters},
+          {"memory_bytes", f.session->plan().memory()},
+          // One standard error of the estimate is not known yet, so no confidence is claimed.
+          {"error_estimate", {{"relmse", f.film.relmse}, {"confidence", nullptr}}},
+          {"device", f.device->name},
+          {"driver", f.device->platform_name + " " + f.device->driver}};
+}
+
+}  // namespace pellucid

@@ -1,0 +1,44 @@
+// Opening scenes: the source tree's folder or the installed one is searched for shipped names.
+#include "apps/scene_input.h"
+
+#include <sys/stat.h>
+
+#include "base/files.h"
+#include "base/hash.h"
+#include "base/log.h"
+#include "scene/load.h"
+
+namespace pellucid {
+namespace {
+
+bool is_folder(const std::string& path) {
+  struct stat info;
+  return stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+/// Installed: <prefix>/bin/pellucid and <prefix>/share/pellucid/scenes; else the source tree.
+std::vector<std::string> scene_folders() {
+  const std::string program = executable_path();
+  const std::string installed =
+      program.substr(0, program.rfind('/') + 1) + "../share/pellucid/scenes";
+  std::vector<std::string> folders;
+  for (const std::string& folder : {installed, std::string(PELLUCID_SCENE_DIR)})
+    if (is_folder(folder)) folders.push_back(folder);
+  return folders;
+}
+
+}  // namespace
+
+Scene open_scene(const std::string& path_or_name) {
+  Scene scene = load_scene(find_scene(path_or_name, scene_folders()));
+  for (const std::string& warning : scene.warnings) log_warn("{}", warning);
+  return scene;
+}
+
+std::string scene_hash(const Scene& scene) {
+  Hasher hasher;
+  for (const std::string& file : scene.files) hasher.add(read_text(file));
+  return hasher.hex();
+}
+
+}  // namespace pellucid

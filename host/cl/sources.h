@@ -1,0 +1,25 @@
+// From kernel files to one self-contained source text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pellucid {
+
+/// Kernel files: those inside the binary, or a folder on disk for live work (--kernel-dir).
+class KernelFiles {
+ public:
+  explicit KernelFiles(std::string folder = "") : folder_(std::move(folder)) {}
+
+  /// Text of `name` (path below kernels/). Throws InputError if there is none.
+  std::string read(const std::string& name) const;
+
+  /// `name` with every #include "..." resolved once, #line markers kept, and `prelude` in front.
+  /// Throws InputError naming file and line of an include that cannot be found.
+  std::string expand(const std::string& name, const std::string& prelude) const;
+
+ private:
+  std::string folder_;
+};
+
+}  // namespace pellucid

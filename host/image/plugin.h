@@ -1,0 +1,26 @@
+// What the loader (image.cpp) and the library behind dlopen (oiio_plugin.cpp) agree on. Failures
+// come back as text instead of exceptions, since the two are linked apart; running out of memory
+// throws.
+#pragma once
+
+#include <string>
+
+#include "image/image.h"
+
+namespace pellucid {
+
+struct ImagePlugin {
+  /// Each returns "" or the reason of failure, without the file name.
+  std::string (*read)(const std::string& path, bool linearise, Image& image);
+  /// `path` exists and may be overwritten; its suffix selects the format.
+  std::string (*write)(const std::string& path, const Image& image);
+};
+
+/// Layout version of ImagePlugin and Image, part of the symbol's name: a stale library left over
+/// from another build then fails to load instead of crashing.
+#define PELLUCID_IMAGE_PLUGIN pellucid_image_plugin_1
+#define PELLUCID_IMAGE_PLUGIN_NAME "pellucid_image_plugin_1"
+
+using ImagePluginEntry = const ImagePlugin* (*)();
+
+}  // namespace pellucid

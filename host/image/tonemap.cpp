@@ -1,0 +1,71 @@
+// Curves and colour scales; none of them needs the image library.
+#include "image/tonemap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pellucid {
+namespace {
+
+using Rgb = std::array<float, 3>;
+
+Image rgb_like(const Image& image) {
+  Image out;
+  out.width = image.width;
+  out.height = image.height;
+  out.channels = {"R", "G", "B"};
+  out.data.reserve(std::size_t(image.width) * std::size_t(image.height) * 3);
+  return out;
+}
+
+/// Colour of log10(error) = -3, -2, -1, 0, 1.
+constexpr std::array<Rgb, 5> SCALE = {
+    {{0, 0, 0}, {0.1f, 0.2f, 0.9f}, {0.9f, 0.1f, 0.1f}, {1, 0.9f, 0}, {1, 1, 1}}};
+constexpr float LOWEST_DECADE = -3.0f;
+constexpr Rgb NOT_A_NUMBER = {0, 1, 0};
+
+Rgb colour_of(float error) {
+  if (std::isnan(error)) return NOT_A_NUMBER;
+  const float last = static_cast<float>(SCALE.size() - 1);
+  const float place = std::clamp(std::log10(error) - LOWEST_DECADE, 0.0f, last);
+  const std::size_t below = std::min(static_cast<std::size_t>(place), SCALE.size() - 2);
+  const float t = place - static_cast<float>(below);
+  Rgb colour;
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = (1 - t) * SCALE[below][c] + t * SCALE[below + 1][c];
+  return colour;
+}
+
+}  // namespace
+
+float srgb_encode(float linear) {
+  if (!(linear > 0.0f)) return 0.0f;
+  if (linear >= 1.0f) return 1.0f;
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+float srgb_decode(float encoded) {
+  if (!(encoded > 0.0f)) return 0.0f;
+  if (encoded >= 1.0f) return 1.0f;
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+Image to_display(const Image& linear) {
+  Image out = rgb_like(linear);
+  std::array<int, 3> from = {linear.channel("R"), linear.channel("G"), linear.channel("B")};
+  if (*std::min_element(from.begin(), from.end()) < 0) from = {0, 0, 0};
+  const std::size_t channels = linear.channels.size();
+  for (std::size_t first = 0; first < linear.data.size(); first += channels)
+    for (const int c : from) out.data.push_back(srgb_encode(linear.data[first + std::size_t(c)]));
+  return out;
+}
+
+Image false_colour(const Image& error) {
+  Image out = rgb_like(error);
+  for (const float value : error.data)
+    for (const float component : colour_of(value)) out.data.push_back(component);
+  return out;
+}
+
+}  // namespace pellucid

@@ -1,0 +1,44 @@
+// From the scene in human units to the arrays that kernels read: shared structs, BVH, features.
+// Testable without a device.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bvh/bvh.h"
+#include "pack/features.h"
+#include "scene/scene.h"
+#include "shared/layout.h"
+#include "shared/limits.h"
+
+namespace pellucid {
+
+/// What the device prescribes for the layout.
+struct PackOptions {
+  int simd_width = 8;  ///< children per node and triangles per leaf block: 4, 8 or 16
+};
+
+/// Arrays as uploaded. Empty arrays get one zero element, so that every buffer exists.
+struct PackedScene {
+  std::vector<float> nodes;      ///< [nodes][7][simd_width]
+  std::vector<float> leaves;     ///< [blocks][3][3][simd_width]
+  std::vector<uint> leaf_prims;  ///< [blocks][simd_width]
+  std::vector<Quadric> quadrics;
+  std::vector<Triangle> triangles;
+  std::vector<F4> positions, normals;
+  std::vector<::Shape> shapes;
+  std::vector<::Material> materials;
+  std::vector<::Light> lights;
+  SceneInfo info{};
+  ::Camera camera{};
+  FeatureSet features;  ///< what the scene needs
+  int simd_width = 8;
+  uint stack_bound = 0;  ///< traversal stack entries needed
+  bvh::Statistics bvh;
+  double bvh_seconds = 0;
+};
+
+/// Throws InputError where the scene exceeds a limit of the layout.
+PackedScene pack_scene(const Scene& scene, const PackOptions& options);
+
+}  // namespace pellucid

@@ -1,0 +1,24 @@
+// The steps of pack_scene, one file each. Every step adds the features it packs.
+#pragma once
+
+#include "pack/pack.h"
+
+namespace pellucid {
+
+inline F4 to_f4(const glm::dvec3& v, double w = 0.0) {
+  return F4{float(v.x), float(v.y), float(v.z), float(w)};
+}
+
+/// materials.cpp: one material, with its feature.
+::Material pack_material(const Material& material, FeatureSet& features);
+
+/// geometry.cpp: shapes, triangles, quadrics (in scene order: primitive ids do not depend on the
+/// BVH).
+void pack_shapes(const Scene& scene, PackedScene& out);
+/// geometry.cpp: BVH over them, flattened; bounds.
+void pack_bvh(PackedScene& out);
+
+/// lights.cpp: lights of shapes and of the scene, with one alias table by power.
+void pack_lights(const Scene& scene, PackedScene& out);
+
+}  // namespace pellucid

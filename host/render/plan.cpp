@@ -1,0 +1,149 @@
+// Plan: allocation, specialisation, binding by bundle, launching.
+#include "render/plan.h"
+
+#include "base/error.h"
+#include "shared/buffers.h"
+
+namespace pellucid {
+namespace {
+
+/// Parameter names of a bundle, from the kernels' own list.
+std::vector<std::string> bundle_buffers(Bundle bundle) {
+#define PELLUCID_NAME(T, name, meaning) #name,
+  switch (bundle) {
+    case Bundle::scene:
+      return {SCENE_BUFFERS(PELLUCID_NAME)};
+    case Bundle::film:
+      return {FILM_BUFFERS(PELLUCID_NAME)};
+    case Bundle::splat:
+      return {SPLAT_BUFFERS(PELLUCID_NAME)};
+    case Bundle::diag:
+      return {DIAG_BUFFERS(PELLUCID_NAME)};
+  }
+#undef PELLUCID_NAME
+  throw InternalError("unknown bundle");
+}
+
+bool uses(const Integrator& integrator, Bundle bundle) {
+  for (const Pass& pass : integrator.passes)
+    for (Bundle b : pass.bundles)
+      if (b == bundle) return true;
+  return false;
+}
+
+}  // namespace
+
+std::map<std::string, std::size_t> plan_memory(const PackedScene& scene,
+                                               const Integrator& integrator, std::size_t pixels) {
+  std::map<std::string, std::size_t> bytes;
+#define PELLUCID_SCENE_BYTES(T, name, meaning) bytes[#name] = scene.name.size() * sizeof(T);
+  SCENE_BUFFERS(PELLUCID_SCENE_BYTES)
+#undef PELLUCID_SCENE_BYTES
+  bytes["samples"] = pixels * sizeof(F4);
+  bytes["film"] = pixels * sizeof(FilmPixel);
+  bytes["diag"] = DIAG_COUNT * sizeof(uint);
+  constexpr std::size_t words_per_pixel = 6;  // three channels of 64 bits
+  if (uses(integrator, Bundle::splat)) bytes["splats"] = pixels * words_per_pixel * sizeof(uint);
+  return bytes;
+}
+
+Specialisation specialise(const PackedScene& scene, const Integrator& integrator,
+                          const DeviceInfo& device, const PlanOptions& options) {
+  Specialisation s;
+  s.features = scene.features | integrator.wishes | options.extra_features;
+  s.simd_width = scene.simd_width;
+  s.stack_bound = scene.stack_bound;
+  s.simd_builtins = options.simd_builtins;
+  s.int64_atomics = device.int64_atomics;
+  s.rounded_division = device.rounded_division;
+  return s;
+}
+
+Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator,
+           const PlanOptions& options, uint width, uint height)
+    : device_(std::move(device)),
+      options_(options),
+      specialisation_(specialise(scene, integrator, device_.info(), options)),
+      pixels_(std::size_t(width) * height) {
+  if (options_.group > device_.info().max_group)
+    throw DeviceError("a work-group of " + std::to_string(options_.group) + " is more than the " +
+                      std::to_string(device_.info().max_group) + " that " + device_.info().name +
+                      " allows");
+  const auto bytes = plan_memory(scene, integrator, pixels_);
+#define PELLUCID_UPLOAD(T, name, meaning) \
+  buffers_[#name] = device_.create_buffer(#name, bytes.at(#name), scene.name.data());
+  SCENE_BUFFERS(PELLUCID_UPLOAD)
+#undef PELLUCID_UPLOAD
+  for (const auto& [name, size] : bytes)
+    if (!buffers_.count(name)) buffers_[name] = device_.create_buffer(name, size);
+  const KernelFiles files(options_.kernel_dir);
+  const std::string prelude = prelude_of(specialisation_);
+  passes_.reserve(integrator.passes.size());
+  for (const Pass& pass : integrator.passes) {
+    PassState state;
+    state.pass = pass;
+    state.kernel = device_.build(pass.name, files.expand("passes/" + pass.name + ".cl", prelude),
+                                 options_of(specialisation_));
+    bind(state, scene);
+    passes_.push_back(std::move(state));
+  }
+  warm_up();
+}
+
+void Plan::bind(PassState& state, const PackedScene& scene) {
+  unsigned index = 0;
+  for (Bundle bundle : state.pass.bundles) {
+    for (const std::string& name : bundle_buffers(bundle))
+      state.kernel.set_buffer(index++, buffers_.at(name));
+    if (bundle == Bundle::scene) {
+      state.kernel.set_bytes(index++, &scene.info, sizeof scene.info);
+      state.kernel.set_bytes(index++, &scene.camera, sizeof scene.camera);
+    }
+  }
+  state.launch_index = index;
+}
+
+void Plan::warm_up() {
+  // Drivers generate code at the first launch of a kernel, per group size and kind of grid: launch
+  // with the real sizes on an image of no pixels.
+  const Launch nothing{};
+  for (PassState& state : passes_) {
+    state.kernel.set_bytes(state.launch_index, &nothing, sizeof nothing);
+    device_.launch(state.kernel, pixels_, options_.group, nullptr);
+  }
+  device_.finish();
+}
+
+void Plan::enqueue(const Launch& launch) {
+  for (PassState& state : passes_) {
+    state.kernel.set_bytes(state.launch_index, &launch, sizeof launch);
+    device_.launch(state.kernel, pixels_, options_.group, &state.time);
+  }
+}
+
+std::vector<FilmPixel> Plan::read_film() {
+  std::vector<FilmPixel> film(pixels_);
+  device_.read(buffers_.at("film"), film.data(), film.size() * sizeof(FilmPixel));
+  return film;
+}
+
+void Plan::write_film(const std::vector<FilmPixel>& film) {
+  PELLUCID_CHECK(film.size() == pixels_, "film size");
+  device_.write(buffers_.at("film"), film.data(), film.size() * sizeof(FilmPixel));
+}
+
+void Plan::collect(std::vector<Counter>& counters) {
+  std::vector<uint> counts(DIAG_COUNT);
+  device_.read(buffers_.at("diag"), counts.data(), counts.size() * sizeof(uint));
+  for (std::size_t i = 0; i < counts.size(); ++i) counters.at(i).count += counts[i];
+  std::fill(counts.begin(), counts.end(), 0u);
+  device_.write(buffers_.at("diag"), counts.data(), counts.size() * sizeof(uint));
+}
+
+std::map<std::string, std::size_t> Plan::memory() const {
+  std::map<std::string, std::size_t> bytes;
+  for (const auto& [name, buffer] : buffers_) bytes[name] = buffer.bytes();
+  return bytes;
+}
+
+}  // namespace pellucid

@@ -1,0 +1,72 @@
+// A plan: an integrator's passes made ready on a device: buffers allocated, kernels built and
+// bound.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cl/device.h"
+#include "cl/sources.h"
+#include "pack/pack.h"
+#include "render/diagnostics.h"
+#include "render/integrator.h"
+#include "render/specialise.h"
+
+namespace pellucid {
+
+struct PlanOptions {
+  FeatureSet extra_features;  ///< on top of what the scene needs
+  std::string kernel_dir;     ///< read kernels from here instead of the binary
+  std::size_t group = 64;     ///< work-group size of every pass
+  bool simd_builtins = true;
+};
+
+struct PassState {
+  Pass pass;
+  Kernel kernel;
+  unsigned launch_index = 0;  ///< parameter index of the launch struct
+  PassTime time;
+};
+
+/// Name and size of every device buffer that rendering `scene` with `integrator` needs.
+std::map<std::string, std::size_t> plan_memory(const PackedScene& scene,
+                                               const Integrator& integrator, std::size_t pixels);
+
+/// What the kernels of this scene, method and device are specialised for.
+Specialisation specialise(const PackedScene& scene, const Integrator& integrator,
+                          const DeviceInfo& device, const PlanOptions& options);
+
+class Plan {
+ public:
+  /// Uploads the scene, allocates the film (cleared) and builds all passes, code generation
+  /// included, so that the first iteration is as fast as the last. Throws DeviceError.
+  Plan(Device device, const PackedScene& scene, const Integrator& integrator,
+       const PlanOptions& options, uint width, uint height);
+
+  /// Enqueues one iteration; returns at once.
+  void enqueue(const Launch& launch);
+  void finish() { device_.finish(); }
+
+  std::vector<FilmPixel> read_film();
+  void write_film(const std::vector<FilmPixel>& film);
+  /// Adds the device's counters to `counters` and clears them.
+  void collect(std::vector<Counter>& counters);
+
+  std::map<std::string, std::size_t> memory() const;
+  const std::vector<PassState>& passes() const { return passes_; }
+  const Specialisation& specialisation() const { return specialisation_; }
+
+ private:
+  void bind(PassState& state, const PackedScene& scene);
+  void warm_up();
+
+  Device device_;
+  PlanOptions options_;
+  Specialisation specialisation_;
+  std::size_t pixels_;
+  std::map<std::string, Buffer> buffers_;
+  std::vector<PassState> passes_;
+};
+
+}  // namespace pellucid

@@ -1,0 +1,90 @@
+// The render loop: batches of iterations, each short enough to stay responsive.
+#include "render/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/timer.h"
+
+namespace pellucid {
+namespace {
+
+/// Mixes a 64-bit user seed into the word that kernels get (SplitMix64's finaliser), so that seeds
+/// 0, 1, 2 share nothing.
+uint hash_seed(std::uint64_t seed) {
+  seed += 0x9e3779b97f4a7c15ull;
+  seed = (seed ^ (seed >> 30)) * 0xbf58476d1ce4e5b9ull;
+  seed = (seed ^ (seed >> 27)) * 0x94d049bb133111ebull;
+  return static_cast<uint>((seed ^ (seed >> 31)) >> 32);
+}
+
+/// Time between two looks at signals and the clock.
+constexpr double batch_seconds = 0.2;
+
+Plan timed_plan(const Device& device, const PackedScene& scene, const Integrator& integrator,
+                const RenderOptions& options, double& seconds) {
+  const Timer timer;
+  Plan plan(device, scene, integrator, options.plan, uint(options.width), uint(options.height));
+  seconds = timer.seconds();
+  return plan;
+}
+
+}  // namespace
+
+Session::Session(const Device& device, const PackedScene& scene, const Integrator& integrator,
+                 const RenderOptions& options)
+    : options_(options), plan_(timed_plan(device, scene, integrator, options, kernel_seconds_)) {
+  PELLUCID_CHECK(options_.spp || options_.seconds, "a render needs a budget");
+  launch_.width = uint(options_.width);
+  launch_.height = uint(options_.height);
+  launch_.seed = hash_seed(options_.seed);
+  launch_.max_depth = options_.max_depth.value_or(NONE);
+  launch_.mis = options_.mis;
+  launch_.splat_scale = 1048576.0f;  // no method here splats yet; light tracing sets it by power
+}
+
+std::uint64_t Session::batch_size(double seconds_per_iteration) const {
+  std::uint64_t batch = 1;
+  if (seconds_per_iteration > 0)
+    batch = std::uint64_t(std::clamp(batch_seconds / seconds_per_iteration, 1.0, 4096.0));
+  if (options_.spp) batch = std::min(batch, *options_.spp - iteration_);
+  return batch;
+}
+
+std::string Session::progress_text(double elapsed) const {
+  const double done_spp = options_.spp ? double(iteration_) / double(*options_.spp) : 0.0;
+  const double done_time = options_.seconds ? elapsed / *options_.seconds : 0.0;
+  const double done = std::min(1.0, std::max(done_spp, done_time));
+  const double left = done > 0 ? elapsed / done - elapsed : 0.0;
+  return fmt::format("{:3.0f} %  {} spp  {:.2f} Mpaths/s  {} left", 100 * done, iteration_,
+                     1e-6 * double(iteration_) * options_.width * options_.height / elapsed,
+                     format_seconds(left));
+}
+
+bool Session::run(const RenderHooks& hooks) {
+  const Timer timer;
+  bool stopped = false;
+  while (!stopped) {
+    const double elapsed = timer.seconds();
+    if (options_.spp && iteration_ >= *options_.spp) break;
+    if (options_.seconds && iteration_ > 0 && elapsed >= *options_.seconds) break;
+    const std::uint64_t batch = batch_size(iteration_ ? elapsed / double(iteration_) : 0.0);
+    for (std::uint64_t i = 0; i < batch; ++i) {
+      launch_.iteration = static_cast<uint>(iteration_++);
+      plan_.enqueue(launch_);
+    }
+    plan_.finish();
+    if (hooks.progress) hooks.progress(progress_text(timer.seconds()));
+    if (hooks.wants_image && hooks.wants_image()) hooks.image(plan_.read_film());
+    stopped = hooks.stop && hooks.stop();
+  }
+  render_seconds_ += timer.seconds();
+  plan_.collect(counters_);
+  return !stopped || (options_.spp && iteration_ >= *options_.spp);
+}
+
+}  // namespace pellucid

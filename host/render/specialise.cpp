@@ -1,0 +1,38 @@
+// Preludes: one text per set of features, width and device facts.
+#include "render/specialise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pellucid {
+
+int simd_width_for(const DeviceInfo& device) {
+  // PoCL reports the widest unit of the CPU: 16 with AVX-512, 8 with AVX, 4 with SSE or NEON.
+  if (device.native_float_width >= 16) return 16;
+  return device.native_float_width >= 8 ? 8 : 4;
+}
+
+std::string prelude_of(const Specialisation& s) {
+  std::string text;
+  const auto define = [&](const char* name, unsigned value) {
+    text += fmt::format("#define {} {}\n", name, value);
+  };
+  for (unsigned f = 0; f < FEATURE_COUNT; ++f)
+    define(feature_table()[f].name, s.features.has(static_cast<Feature>(f)));
+  constexpr uint step = 32;  // scenes of similar depth share a program
+  define("BVH_STACK", std::max(step, (s.stack_bound + step - 1) / step * step));
+  define("SIMD_WIDTH", static_cast<unsigned>(s.simd_width));
+  define("SIMD_BUILTINS", s.simd_builtins);
+  define("DEV_INT64_ATOMICS", s.int64_atomics);
+  if (s.int64_atomics) text += "#pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable\n";
+  return text;
+}
+
+std::string options_of(const Specialisation& s) {
+  std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
+  if (s.rounded_division) options += " -cl-fp32-correctly-rounded-divide-sqrt";
+  return options;
+}
+
+}  // namespace pellucid

@@ -1,0 +1,36 @@
+// Parts of the scene parser; load.cpp calls them in order. They append to one Scene.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "scene/json_tree.h"
+#include "scene/reader.h"
+#include "scene/scene.h"
+
+namespace pellucid {
+
+/// The scene under construction and what is needed to finish it.
+struct SceneBuilder {
+  Scene scene;
+  std::string folder;                         ///< of the scene file; assets are relative to it
+  std::map<std::string, int> material_index;  ///< of "materials", by name
+  std::map<std::string, std::set<std::string>> not_supported;  ///< kind -> files that ask for it
+};
+
+Camera parse_camera(const JsonNode& node);
+Light parse_light(const JsonNode& node);
+Emission parse_emission(const JsonNode& node);
+
+/// A material without its name.
+Material parse_material(const JsonNode& node);
+void parse_materials(const JsonNode& node, SceneBuilder& builder);
+
+/// One entry of "shapes"; a mesh may become several shapes.
+void parse_shape(const JsonNode& node, SceneBuilder& builder);
+
+/// Index of the material that `name`, a text, names.
+int find_material(const JsonNode& name, const SceneBuilder& builder);
+
+}  // namespace pellucid

@@ -1,0 +1,267 @@
+// The tables of the native scene format. Whoever adds a key adds it here, and nowhere else.
+#include "scene/schema.h"
+
+#include "base/error.h"
+#include "scene/metals.h"
+
+namespace pellucid {
+namespace {
+
+using T = FieldType;
+using Fields = std::vector<Field>;
+
+// Squares of such lengths still fit a float, and no scene in a sensible unit is smaller or larger.
+constexpr double huge = 1e15, tiny = 1e-15;
+constexpr Range any{-1e30, 1e30};
+constexpr Range coordinate{-huge, huge};
+constexpr Range length{tiny, huge};
+constexpr Range light{0.0, huge};
+constexpr Range unit{0.0, 1.0};
+
+const Field type_field{"type", T::text, required, any, "which kind it is"};
+
+/// The keys of one kind followed by those that its whole family shares.
+Fields join(Fields own, const Fields& shared) {
+  own.insert(own.end(), shared.begin(), shared.end());
+  return own;
+}
+
+const Fields transform_field = {
+    {"transform", T::array, optional, any, "steps, applied in the order written"}};
+
+Fields shape_fields(bool can_flip) {
+  Fields fields = {
+      type_field,
+      {"name", T::text, optional, any, "for messages and object ids"},
+      {"material", T::text, optional, any, "a name from \"materials\""},
+      transform_field[0],
+      {"sides", T::integer, "2", {1, 2}, "1: black, but blocking, from behind (opaque materials)"},
+      {"emission", T::object, optional, any, "makes the surface a light"},
+  };
+  if (can_flip)
+    fields.push_back({"flip", T::boolean, "false", any, "turns the front side to the back"});
+  return fields;
+}
+
+Fields generated_fields(Fields own) {
+  const Fields shared = {
+      {"triangles", T::integer, required, {1000, 10'000'000}, "about how many, within 10 %"},
+      {"smooth", T::boolean, "true", any, "smooth shading normals, area weighted"},
+  };
+  return join(join(std::move(own), shared), shape_fields(true));
+}
+
+const Field seed_field{"seed", T::integer, "0", {0, 4294967295.0}, "picks another shape"};
+
+std::vector<ObjectSpec> scene_specs() {
+  return {
+      {"scene",
+       "a scene file",
+       {
+           {"version", T::integer, required, {1, 1}, "version of the format"},
+           {"description", T::text, optional, any, "why the scene is here"},
+           {"camera", T::object, required, any, "pinhole camera"},
+           {"film", T::object, "{}", any, "size of the picture"},
+           {"integrator", T::object, "{}", any, "method and effort; the command line wins"},
+           {"materials", T::object, "{}", any, "materials by name"},
+           {"shapes", T::array, "[]", any, "surfaces"},
+           {"lights", T::array, "[]", any, "lights without a surface"},
+       }},
+      {"camera",
+       "pinhole camera",
+       {
+           {"origin", T::vector, required, coordinate, "where it stands"},
+           {"target", T::vector, required, coordinate, "the point in the middle of the picture"},
+           {"up", T::vector, "[0, 1, 0]", coordinate, "direction that is up in the picture"},
+           {"fov", T::number, "45", {1e-4, 179.9}, "full angle in degrees along fovAxis"},
+           {"fovAxis",
+            T::choice,
+            "\"x\"",
+            any,
+            "the axis that fov is measured along",
+            {"x", "y", "smaller", "larger"}},
+       }},
+      {"film",
+       "size of the picture",
+       {
+           {"width", T::integer, "512", {1, 32768}, "pixels"},
+           {"height", T::integer, "512", {1, 32768}, "pixels"},
+       }},
+      {"integrator",
+       "method and effort",
+       {
+           {"name", T::text, optional, any, "method, as for --integrator"},
+           {"spp", T::integer, optional, {1, 1 << 30}, "samples per pixel"},
+           {"maxDepth", T::integer, optional, {1, 1 << 20}, "most segments of a path; absent: all"},
+       }},
+      {"emission",
+       "light that a surface gives off",
+       {
+           {"radiance", T::color, required, light, "W/(m^2 sr), the same in all directions"},
+           {"sides", T::integer, "1", {1, 2}, "1: the front side; 2: both"},
+       }},
+      {"transform step",
+       "exactly one of the keys",
+       {
+           {"translate", T::vector, optional, coordinate, "moves"},
+           {"rotate", T::object, optional, any, "turns about an axis through the origin"},
+           {"scale", T::scale, optional, coordinate, "scales, per axis or alike; negative mirrors"},
+           {"matrix", T::matrix, optional, coordinate, "4x4, row by row; last row 0 0 0 1"},
+       }},
+      {"rotate",
+       "a rotation, counter-clockwise when the axis points at you",
+       {
+           {"axis", T::vector, required, coordinate, "direction, of any length"},
+           {"degrees", T::number, required, {-36000, 36000}, "angle"},
+       }},
+  };
+}
+
+std::vector<ObjectSpec> material_specs() {
+  const Field reflectance{"reflectance", T::color, "0.5", unit, "share of light sent back"};
+  const Fields width = {
+      {"roughness", T::number, optional, unit, "alpha = roughness^2; absent: smooth"},
+      {"alpha", T::number, optional, unit, "GGX width; instead of roughness"},
+  };
+  return {
+      {"material/diffuse", "Lambert", {type_field, reflectance}},
+      {"material/mirror",
+       "perfect mirror",
+       {type_field, {"reflectance", T::color, "1", unit, "share of light sent back"}}},
+      {"material/dielectric", "glass, smooth or rough (GGX)",
+       join({type_field,
+             {"ior", T::number, "1.5", {0.1, 10}, "index of the inside over the outside"}},
+            width)},
+      {"material/conductor", "metal, smooth or rough (GGX)",
+       join({type_field,
+             {"metal", T::choice, optional, any, "a measured metal", metal_names()},
+             {"eta",
+              T::color,
+              optional,
+              {0, 100},
+              "real part of the index; with k instead of metal"},
+             {"k", T::color, optional, {0, 100}, "imaginary part of the index"}},
+            width)},
+      {"material/phong",
+       "modified Phong; diffuse + specular <= 1 in every channel",
+       {
+           type_field,
+           {"diffuse", T::color, "0.5", unit, "share of the diffuse part"},
+           {"specular", T::color, "0.2", unit, "share of the glossy part at normal incidence"},
+           {"exponent", T::number, "50", {0, 1e6}, "sharpness of the glossy part"},
+       }},
+  };
+}
+
+std::vector<ObjectSpec> solid_specs() {
+  const Field center{"center", T::vector, "[0, 0, 0]", coordinate, "middle"};
+  return {
+      {"shape/mesh", "triangles from an OBJ file",
+       join({{"file", T::text, required, any, "OBJ file, relative to the scene file"},
+             {"smooth", T::boolean, "true", any, "use the file's normals, where it has them"}},
+            shape_fields(true))},
+      {"shape/sphere", "exact sphere, front side outwards",
+       join({center, {"radius", T::number, "1", length, "radius"}}, shape_fields(false))},
+      {"shape/disk", "exact flat disk",
+       join({center,
+             {"normal", T::vector, "[0, 0, 1]", coordinate, "front side, of any length"},
+             {"radius", T::number, "1", length, "radius"}},
+            shape_fields(true))},
+      {"shape/rectangle", "by corner and edges, or by center and size",
+       join({{"corner", T::vector, optional, coordinate, "one corner"},
+             {"edges", T::array, optional, any, "the two edges from it; front side = e0 x e1"},
+             {"center", T::vector, optional, coordinate, "middle; lies in the xy plane, facing +z"},
+             {"size", T::pair, optional, length, "extent along x and y"}},
+            shape_fields(true))},
+      {"shape/cube", "closed box, front side outwards",
+       join({center, {"size", T::scale, "1", length, "edges along x, y, z"}}, shape_fields(true))},
+  };
+}
+
+std::vector<ObjectSpec> generated_specs() {
+  return {
+      {"shape/displaced-sphere", "closed lump: a sphere with noise along its radius",
+       generated_fields(
+           {{"radius", T::number, "1", length, "mean radius"},
+            {"amplitude", T::number, "0.15", {0, 0.9}, "largest change over the radius"},
+            {"frequency", T::number, "3", {0.01, 1000}, "bumps per radius"},
+            {"octaves", T::integer, "4", {1, 12}, "layers of finer noise"},
+            seed_field})},
+      {"shape/torus-knot", "closed tube along a (p,q) torus knot about the z axis",
+       generated_fields(
+           {{"p", T::integer, "2", {1, 20}, "turns about the axis; p and q have no common divisor"},
+            {"q", T::integer, "3", {1, 20}, "turns about the ring"},
+            {"radius", T::number, "1", length, "of the ring"},
+            {"ring",
+             T::number,
+             "0.45",
+             {0.01, 0.99},
+             "distance of the curve from the ring / radius"},
+            {"tube", T::number, "0.2", {0.001, 0.9}, "radius of the tube / radius"}})},
+      {"shape/wave-surface", "sum of sine waves over the xz plane, front side up (+y)",
+       generated_fields({{"size", T::pair, "[2, 2]", length, "extent along x and z"},
+                         {"amplitude", T::number, "0.1", {0, huge}, "largest height"},
+                         {"waves", T::integer, "5", {1, 64}, "how many waves"},
+                         {"wavelength", T::number, "0.7", length, "of the longest wave"},
+                         seed_field})},
+      {"shape/height-field", "fractal ground over the xz plane, front side up (+y)",
+       generated_fields({{"size", T::pair, "[2, 2]", length, "extent along x and z"},
+                         {"height", T::number, "0.3", {0, huge}, "largest distance from the plane"},
+                         {"frequency", T::number, "3", {0.01, 1000}, "hills along the longer side"},
+                         {"octaves", T::integer, "6", {1, 12}, "layers of finer noise"},
+                         seed_field})},
+  };
+}
+
+std::vector<ObjectSpec> light_specs() {
+  return {
+      {"light/point",
+       "the same in all directions",
+       {
+           type_field,
+           {"position", T::vector, required, coordinate, "where it stands"},
+           {"intensity", T::color, optional, light, "W/sr"},
+           {"power", T::color, optional, light, "W, instead of intensity"},
+       }},
+      {"light/directional",
+       "parallel light from infinity",
+       {
+           type_field,
+           {"direction", T::vector, required, coordinate, "the way light travels, of any length"},
+           {"irradiance", T::color, required, light, "W/m^2 on a plane facing it"},
+       }},
+      {"light/environment",
+       "constant background",
+       {
+           type_field,
+           {"radiance", T::color, required, light, "W/(m^2 sr) from all directions"},
+       }},
+  };
+}
+
+}  // namespace
+
+const std::vector<ObjectSpec>& object_specs() {
+  static const std::vector<ObjectSpec> specs = [] {
+    std::vector<ObjectSpec> all = scene_specs();
+    for (auto* part : {&material_specs, &solid_specs, &generated_specs, &light_specs})
+      for (ObjectSpec& spec : (*part)()) all.push_back(std::move(spec));
+    return all;
+  }();
+  return specs;
+}
+
+const ObjectSpec& object_spec(const std::string& name) {
+  for (const ObjectSpec& spec : object_specs())
+    if (spec.name == name) return spec;
+  throw InternalError("no scene table is called " + name);
+}
+
+std::vector<std::string> family_types(const std::string& family) {
+  std::vector<std::string> types;
+  for (const ObjectSpec& spec : object_specs())
+    if (spec.name.rfind(family + "/", 0) == 0) types.push_back(spec.name.substr(family.size() + 1));
+  return types;
+}
+
+}  // namespace pellucid
