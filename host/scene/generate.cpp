@@ -100,7 +100,7 @@ struct CurveFrame {
 /// Point of a (p,q) torus knot at t turns, with two unit vectors across the curve. The curve lies
 /// on a torus, and the torus' own normal is across it everywhere: the frame closes without a twist.
 CurveFrame torus_knot_frame(const TorusKnot& knot, double t) {
-  const SinCos around = sin_cos_turns(knot.p * t), ring = sin_cos_turns(knot.q * t);
+  const SineCosine around = sin_cos_turns(knot.p * t), ring = sin_cos_turns(knot.q * t);
   const double minor = knot.ring * knot.radius, distance = knot.radius + minor * ring.cos;
   const glm::dvec3 outward(around.cos, around.sin, 0.0), along(-around.sin, around.cos, 0.0);
   const glm::dvec3 up(0.0, 0.0, 1.0);
@@ -153,7 +153,7 @@ RawMesh generate(const TorusKnot& shape) {
   for (std::uint32_t i = 0; i < along; ++i) {
     const CurveFrame frame = torus_knot_frame(shape, static_cast<double>(i) / along);
     for (std::uint32_t k = 0; k < across; ++k) {
-      const SinCos angle = sin_cos_turns(static_cast<double>(k) / across);
+      const SineCosine angle = sin_cos_turns(static_cast<double>(k) / across);
       mesh.positions.push_back(frame.point +
                                tube * (angle.cos * frame.normal + angle.sin * frame.binormal));
     }
@@ -178,7 +178,7 @@ RawMesh generate(const WaveSurface& shape) {
   double total = 0.0, step = 1.0;
   for (int i = 0; i < shape.waves; ++i) {
     const auto base = static_cast<std::uint32_t>(3 * i);
-    const SinCos heading = sin_cos_turns(hash_unit(shape.seed, base));
+    const SineCosine heading = sin_cos_turns(hash_unit(shape.seed, base));
     // Each wave is somewhat shorter than the one before, and lower in the same proportion.
     const double shrink = step * (0.8 + 0.2 * hash_unit(shape.seed, base + 1));
     step *= 0.75;

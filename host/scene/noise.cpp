@@ -65,7 +65,7 @@ double fractal_noise(glm::dvec3 p, int octaves, std::uint32_t seed) {
   return value < -1.0 ? -1.0 : value > 1.0 ? 1.0 : value;
 }
 
-SinCos sin_cos_turns(double turns) {
+SineCosine sin_cos_turns(double turns) {
   turns -= std::floor(turns);
   const int quarter = static_cast<int>(std::floor(turns * 4.0 + 0.5));
   const double x = (turns - quarter * 0.25) * 6.283185307179586476925;  // in [-pi/4, pi/4]

@@ -14,11 +14,11 @@ double hash_unit(std::uint32_t seed, std::uint32_t index);
 /// Sum of `octaves` layers of gradient noise, each twice as fine and half as strong; in [-1, 1].
 double fractal_noise(glm::dvec3 p, int octaves, std::uint32_t seed);
 
-struct SinCos {
+struct SineCosine {
   double sin, cos;
 };
 /// Sine and cosine of a whole-turn angle (1 = 360 degrees), exact at quarters. The C library's
 /// differ in the last bit between machines, so scenes do not use them.
-SinCos sin_cos_turns(double turns);
+SineCosine sin_cos_turns(double turns);
 
 }  // namespace pellucid

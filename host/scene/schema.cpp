@@ -94,6 +94,12 @@ std::vector<ObjectSpec> scene_specs() {
            {"spp", T::integer, optional, {1, 1 << 30}, "samples per pixel"},
            {"maxDepth", T::integer, optional, {1, 1 << 20}, "most segments of a path; absent: all"},
        }},
+  };
+}
+
+/// Objects inside shapes.
+std::vector<ObjectSpec> part_specs() {
+  return {
       {"emission",
        "light that a surface gives off",
        {
@@ -244,7 +250,7 @@ std::vector<ObjectSpec> light_specs() {
 const std::vector<ObjectSpec>& object_specs() {
   static const std::vector<ObjectSpec> specs = [] {
     std::vector<ObjectSpec> all = scene_specs();
-    for (auto* part : {&material_specs, &solid_specs, &generated_specs, &light_specs})
+    for (auto* part : {&part_specs, &material_specs, &solid_specs, &generated_specs, &light_specs})
       for (ObjectSpec& spec : (*part)()) all.push_back(std::move(spec));
     return all;
   }();

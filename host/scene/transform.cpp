@@ -11,7 +11,7 @@ namespace {
 
 glm::dmat3 rotation(glm::dvec3 axis, double degrees) {
   const glm::dvec3 a = axis / glm::length(axis);
-  const SinCos angle = sin_cos_turns(degrees / 360.0);
+  const SineCosine angle = sin_cos_turns(degrees / 360.0);
   const glm::dmat3 cross(0.0, a.z, -a.y, -a.z, 0.0, a.x, a.y, -a.x, 0.0);  // columns
   return angle.cos * glm::dmat3(1.0) + angle.sin * cross +
          (1.0 - angle.cos) * glm::outerProduct(a, a);

@@ -150,7 +150,7 @@ TEST(SceneGenerate, SeedsDiffer) {
 TEST(SceneGenerate, SineAndCosineByTurns) {
   for (int i = -1000; i <= 1000; ++i) {
     const double turns = i / 360.0;
-    const SinCos value = sin_cos_turns(turns);
+    const SineCosine value = sin_cos_turns(turns);
     EXPECT_NEAR(value.sin, std::sin(turns * 6.283185307179586), 2e-14) << i;
     EXPECT_NEAR(value.cos, std::cos(turns * 6.283185307179586), 2e-14) << i;
   }
