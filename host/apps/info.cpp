@@ -58,8 +58,7 @@ nlohmann::json scene_document(const Scene& scene, const PackedScene& packed,
                             {"kernels", kernels}};
   }
   const std::size_t pixels = std::size_t(scene.settings.width) * std::size_t(scene.settings.height);
-  const auto memory = plan_memory(
-      packed, find_integrator(scene.settings.integrator.value_or(default_integrator())), pixels);
+  const auto memory = plan_memory(packed, choose_integrator("", scene), pixels);
   const bvh::Statistics& b = packed.bvh;
   return {{"file", scene.path},
           {"name", scene.name},

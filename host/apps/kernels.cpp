@@ -9,7 +9,6 @@
 #include "apps/common.h"
 #include "apps/scene_input.h"
 #include "base/files.h"
-#include "integrators/registry.h"
 #include "render/plan.h"
 
 namespace pellucid {
@@ -25,8 +24,7 @@ ExitCode KernelsCommand::run(const CommonOptions& common) const {
   const Scene s = open_scene(scene);
   const Device target = Device::open(device);
   const PackedScene packed = pack_scene(s, {simd_width_for(target.info())});
-  const Integrator& method = find_integrator(
-      !integrator.empty() ? integrator : s.settings.integrator.value_or(default_integrator()));
+  const Integrator& method = choose_integrator(integrator, s);
   PlanOptions options;
   options.extra_features = parse_feature_request(features);
   const Specialisation special = specialise(packed, method, target.info(), options);

@@ -32,6 +32,8 @@ struct RenderCommand {
   RenderOptions options(const Scene& scene, const Integrator& method) const;
   std::vector<std::string> output_names(const Scene& scene) const;
   void check_aovs() const;
+  ExitCode finish(const RenderFacts& facts, const std::vector<std::string>& names, bool complete,
+                  const CommonOptions& common) const;
 };
 
 void RenderCommand::declare(CLI::App& app) {
@@ -158,21 +160,51 @@ void log_result(const RenderFacts& f) {
   if (!counters.empty()) log_warn("device counters: {}", counters);
 }
 
+/// Renders with progress and signals; false if stopped early. Writes the image on SIGUSR1.
+bool render_with_progress(Session& session, StopSignal& stop, const std::string& title,
+                          const std::function<void(const std::vector<FilmPixel>&)>& write) {
+  Progress progress(title);
+  RenderHooks hooks;
+  hooks.stop = [&] { return stop.stop_requested(); };
+  hooks.progress = [&](const std::string& text) { progress.update(text); };
+  hooks.wants_image = [&] { return stop.take_write_request(); };
+  hooks.image = write;
+  return session.run(hooks);
+}
+
+ExitCode RenderCommand::finish(const RenderFacts& facts, const std::vector<std::string>& names,
+                               bool complete, const CommonOptions& common) const {
+  log_result(facts);
+  for (const std::string& what :
+       unreachable_paths(*facts.integrator, facts.session->plan().specialisation().features))
+    log_info("'{}' cannot see {}", facts.integrator->name, what);
+  nlohmann::json document = render_stats(facts);
+  document["outputs"] = names;
+  document["complete"] = complete;
+  write_json(stats, document);
+  write_json(common.json, document);
+  if (common.wants_text())
+    for (const std::string& name : names) print_result(name + "\n");
+  if (strict && error_count(facts.session->counters()) > 0)
+    throw NumericError("--strict: " + describe_counters(facts.session->counters()));
+  return complete ? ExitCode::done : ExitCode::stopped;
+}
+
 ExitCode RenderCommand::run(const CommonOptions& common) const {
   const Timer total;
   check_aovs();
-  StopSignal signal;
+  StopSignal stop;
   RenderFacts facts;
   Scene s = open_scene(scene);
   if (!size.empty()) std::tie(s.settings.width, s.settings.height) = parse_size("--size", size);
-  const Integrator& method = find_integrator(
-      !integrator.empty() ? integrator : s.settings.integrator.value_or(default_integrator()));
+  const Integrator& method = choose_integrator(integrator, s);
   facts.options = options(s, method);
   const std::vector<std::string> names = output_names(s);
   if (strict && !s.warnings.empty()) throw InputError("--strict: the warnings above are errors");
   facts.scene = &s;
   facts.integrator = &method;
   facts.scene_hash = scene_hash(s);
+  load_image_library();  // a broken installation must show before the render, not after it
   facts.seconds.load = total.seconds();
 
   const Device target = Device::open(device);
@@ -183,47 +215,25 @@ ExitCode RenderCommand::run(const CommonOptions& common) const {
     return pack_scene(s, {simd_width_for(target.info())});
   }();
   facts.seconds.bvh = phase.seconds();
-
   auto session = [&] {
     Progress progress("building kernels");
     return Session(target, packed, method, facts.options);
   }();
   facts.session = &session;
   facts.seconds.kernels = session.kernel_seconds();
-  bool complete = false;
-  {
-    Progress progress(fmt::format("{} on {}", method.name, target.info().spec()));
-    RenderHooks hooks;
-    hooks.stop = [&] { return signal.stop_requested(); };
-    hooks.progress = [&](const std::string& text) { progress.update(text); };
-    hooks.wants_image = [&] { return signal.take_write_request(); };
-    hooks.image = [&](const std::vector<FilmPixel>& film) {
-      facts.film = summarise(film);
-      write_outputs(film, names, aovs, deterministic, facts);
-    };
-    complete = session.run(hooks);
-  }
-  facts.seconds.render = session.render_seconds();
+
+  const auto write = [&](const std::vector<FilmPixel>& film) {
+    facts.film = summarise(film);
+    facts.seconds.render = session.render_seconds();
+    write_outputs(film, names, aovs, deterministic, facts);
+  };
+  const std::string title = fmt::format("{} on {}", method.name, target.info().spec());
+  const bool complete = render_with_progress(session, stop, title, write);
   phase = Timer();
-  const std::vector<FilmPixel> film = session.film();
-  facts.film = summarise(film);
-  write_outputs(film, names, aovs, deterministic, facts);
+  write(session.film());
   facts.seconds.write = phase.seconds();
   facts.seconds.total = total.seconds();
-
-  log_result(facts);
-  for (const std::string& what : unreachable_paths(method, packed.features))
-    log_info("'{}' cannot see {}", method.name, what);
-  nlohmann::json document = render_stats(facts);
-  document["outputs"] = names;
-  document["complete"] = complete;
-  write_json(stats, document);
-  write_json(common.json, document);
-  if (common.wants_text())
-    for (const std::string& name : names) print_result(name + "\n");
-  if (strict && error_count(session.counters()) > 0)
-    throw NumericError("--strict: " + describe_counters(session.counters()));
-  return complete ? ExitCode::done : ExitCode::stopped;
+  return finish(facts, names, complete, common);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "integrators/registry.h"
 #include "scene/load.h"
 
 namespace pellucid {
@@ -33,6 +34,15 @@ Scene open_scene(const std::string& path_or_name) {
   Scene scene = load_scene(find_scene(path_or_name, scene_folders()));
   for (const std::string& warning : scene.warnings) log_warn("{}", warning);
   return scene;
+}
+
+const Integrator& choose_integrator(const std::string& flag, const Scene& scene) {
+  if (!flag.empty()) return find_integrator(flag);
+  try {
+    return find_integrator(scene.settings.integrator.value_or(default_integrator()));
+  } catch (const UsageError& e) {
+    throw InputError(scene.path + ": " + e.what());
+  }
 }
 
 std::string scene_hash(const Scene& scene) {

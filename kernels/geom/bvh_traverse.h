@@ -60,39 +60,102 @@ INLINE uint node_hits(GLOBAL const float* node, RaySlabs s, real t_max, PRIVATE 
   return v_mask_le(tn, tf);
 }
 
+/// Tests a quadric and improves `hit`; ties go to the lowest id, as with triangles.
+INLINE void leaf_quadric(PRIVATE const SceneData* scene, uint index, Ray ray, PRIVATE Hit* hit) {
+  ray.t_max = hit->t;
+  real t = quadric_hit(scene->quadrics[index], ray);
+  uint prim = scene->info.triangle_count + index;
+  if (t > REAL(0.0) && (t < hit->t || prim < hit->prim)) {
+    hit->t = t;
+    hit->b1 = hit->b2 = REAL(0.0);
+    hit->prim = prim;
+  }
+}
+
 /// Tests what a leaf reference points to and improves `hit`.
 INLINE void leaf_test(PRIVATE const SceneData* scene, uint ref, RayShear shear, Ray ray,
                       PRIVATE Hit* hit) {
-  uint count = ((ref >> REF_COUNT_SHIFT) & REF_COUNT_MASK) + 1u;
-  uint index = ref & REF_INDEX_MASK;
 #if FEAT_SPHERES || FEAT_DISKS
   if (((ref >> REF_KIND_SHIFT) & REF_KIND_MASK) == LEAF_QUADRICS) {
-    for (uint i = index; i < index + count; ++i) {
-      ray.t_max = hit->t;
-      real t = quadric_hit(scene->quadrics[i], ray);
-      uint prim = scene->info.triangle_count + i;
-      if (t > REAL(0.0) && (t < hit->t || prim < hit->prim)) {
-        hit->t = t;
-        hit->b1 = hit->b2 = REAL(0.0);
-        hit->prim = prim;
-      }
-    }
+    leaf_quadric(scene, ref & REF_INDEX_MASK, ray, hit);
     return;
   }
 #endif
 #if FEAT_TRIANGLES
-  for (uint i = index; i < index + count; ++i)
+  uint first = ref & REF_INDEX_MASK;
+  uint last = first + ((ref >> REF_COUNT_SHIFT) & REF_COUNT_MASK);
+  for (uint i = first; i <= last; ++i)
     triangle_block(scene->leaves + (size_t)i * BLOCK_STRIDE, scene->leaf_prims + i * SIMD_WIDTH,
                    shear, hit);
 #endif
 }
 
+/// Children still to be visited, nearest on top. The host computed BVH_STACK from the tree.
+typedef struct Pending {
+  uint ref[BVH_STACK];
+  real entry[BVH_STACK];
+  int count;
+} Pending;
+
+/// Puts a child above `base`, keeping what lies there sorted by distance.
+INLINE void push_sorted(PRIVATE const SceneData* scene, PRIVATE Pending* stack, int base, uint ref,
+                        real entry) {
+  if (stack->count >= BVH_STACK) {  // cannot happen; losing geometry in silence would be worse
+    diag_count(scene, DIAG_stack_overflow);
+    return;
+  }
+  int i = stack->count++;
+  for (; i > base && stack->entry[i - 1] < entry; --i) {
+    stack->entry[i] = stack->entry[i - 1];
+    stack->ref[i] = stack->ref[i - 1];
+  }
+  stack->entry[i] = entry;
+  stack->ref[i] = ref;
+}
+
+/// Next reference nearer than t_max, or REF_EMPTY when nothing is left.
+INLINE uint pop_nearer(PRIVATE Pending* stack, real t_max) {
+  while (stack->count > 0) {
+    int i = --stack->count;
+    if (stack->entry[i] <= t_max) return stack->ref[i];
+  }
+  return REF_EMPTY;
+}
+
+/// Visits a node: returns the nearest child that the ray meets and pushes the others.
+INLINE uint node_descend(PRIVATE const SceneData* scene, uint ref, RaySlabs slabs, real t_max,
+                         PRIVATE Pending* stack) {
+  GLOBAL const float* node = scene->nodes + (size_t)ref * NODE_STRIDE;
+  GLOBAL const uint* children = (GLOBAL const uint*)(node + 6 * SIMD_WIDTH);
+  vreal entries;
+  uint mask = node_hits(node, slabs, t_max, &entries);
+  if (mask == 0u) return pop_nearer(stack, t_max);
+  uint nearest = lowest_bit(mask);
+  mask &= mask - 1u;
+  uint result = children[nearest];
+  if (mask == 0u) return result;
+  SIMD_ALIGNED real entry[SIMD_WIDTH];
+  v_store(entries, entry);
+  real nearest_entry = entry[nearest];
+  int base = stack->count;
+  do {
+    uint i = lowest_bit(mask);
+    mask &= mask - 1u;
+    if (entry[i] < nearest_entry) {
+      push_sorted(scene, stack, base, result, nearest_entry);
+      nearest_entry = entry[i];
+      result = children[i];
+    } else {
+      push_sorted(scene, stack, base, children[i], entry[i]);
+    }
+  } while (mask);
+  return result;
+}
+
 /// Traces `ray`; with `any` set it stops at the first hit found. hit.prim is NONE on a miss.
 INLINE Hit bvh_trace(PRIVATE const SceneData* scene, Ray ray, int any) {
-  uint stack_ref[BVH_STACK];
-  real stack_t[BVH_STACK];
-  SIMD_ALIGNED real entry[SIMD_WIDTH];
-  int sp = 0;
+  Pending stack;
+  stack.count = 0;
   Hit hit;
   hit.t = ray.t_max;
   hit.b1 = hit.b2 = REAL(0.0);
@@ -100,61 +163,16 @@ INLINE Hit bvh_trace(PRIVATE const SceneData* scene, Ray ray, int any) {
   RaySlabs slabs = ray_slabs(ray, scene->info.bounds_reach);
   RayShear shear = ray_shear(ray);
   uint ref = scene->info.root;
-  if (ref == REF_EMPTY) return hit;
-  for (;;) {
-    int pop = 1;
+  while (ref != REF_EMPTY) {
     if (ref & REF_LEAF) {
       leaf_test(scene, ref, shear, ray, &hit);
-      if (any && hit.prim != NONE) return hit;
+      if (any && hit.prim != NONE) break;
+      ref = pop_nearer(&stack, hit.t);
     } else {
-      GLOBAL const float* node = scene->nodes + (size_t)ref * NODE_STRIDE;
-      GLOBAL const uint* children = (GLOBAL const uint*)(node + 6 * SIMD_WIDTH);
-      vreal tn;
-      uint mask = node_hits(node, slabs, hit.t, &tn);
-      if (mask) {
-        uint first = lowest_bit(mask);
-        mask &= mask - 1u;
-        ref = children[first];
-        pop = 0;
-        if (mask) {
-          v_store(tn, entry);
-          real near_t = entry[first];
-          int base = sp;
-          // Insertion sort above `base`, farthest lowest; the nearest child stays in `ref`.
-          do {
-            uint i = lowest_bit(mask);
-            mask &= mask - 1u;
-            uint child = children[i];
-            real t = entry[i];
-            if (t < near_t) {
-              real swap_t = near_t;
-              uint swap_ref = ref;
-              near_t = t, ref = child;
-              t = swap_t, child = swap_ref;
-            }
-            if (sp >= BVH_STACK) {  // cannot happen: the host computed the bound from the tree
-              diag_count(scene, DIAG_stack_overflow);
-              continue;
-            }
-            int j = sp++;
-            for (; j > base && stack_t[j - 1] < t; --j) {
-              stack_t[j] = stack_t[j - 1];
-              stack_ref[j] = stack_ref[j - 1];
-            }
-            stack_t[j] = t;
-            stack_ref[j] = child;
-          } while (mask);
-        }
-      }
-    }
-    if (pop) {
-      do {
-        if (sp == 0) return hit;
-        --sp;
-      } while (stack_t[sp] > hit.t);
-      ref = stack_ref[sp];
+      ref = node_descend(scene, ref, slabs, hit.t, &stack);
     }
   }
+  return hit;
 }
 
 #endif

@@ -66,29 +66,35 @@ INLINE void surface_shape(PRIVATE const SceneData* scene, uint shape_index, uint
   s->light = shape.first_light == NONE ? NONE : shape.first_light + (prim - shape.first_prim);
 }
 
+/// The surface at a hit of `ray` on a quadric.
+INLINE Surface quadric_surface(PRIVATE const SceneData* scene, Ray ray, Hit hit) {
+  Surface s;
+  Quadric q = scene->quadrics[hit.prim - scene->info.triangle_count];
+  surface_shape(scene, q.shape, hit.prim, &s);
+  real3 p = ray.o + ray.d * hit.t;
+  if (q.kind == QUADRIC_SPHERE) {
+    sphere_point(q.center_radius, normalize3(p - load3(q.center_radius)), &s);
+  } else {
+    disk_point(q, p, &s);
+  }
+  return s;
+}
+
 /// The surface at a hit of `ray` (hit.prim != NONE).
 INLINE Surface surface_at(PRIVATE const SceneData* scene, Ray ray, Hit hit) {
-  Surface s;
 #if FEAT_SPHERES || FEAT_DISKS
-  if (hit.prim >= scene->info.triangle_count) {
-    Quadric q = scene->quadrics[hit.prim - scene->info.triangle_count];
-    surface_shape(scene, q.shape, hit.prim, &s);
-    real3 c = load3(q.center_radius);
-    real3 p = ray.o + ray.d * hit.t;
-    if (q.kind == QUADRIC_SPHERE) {
-      sphere_point(q.center_radius, normalize3(p - c), &s);
-    } else {
-      disk_point(q, p, &s);
-    }
-    return s;
-  }
-#endif
 #if FEAT_TRIANGLES
+  if (hit.prim >= scene->info.triangle_count)
+#endif
+    return quadric_surface(scene, ray, hit);
+#endif
+#if FEAT_TRIANGLES || !(FEAT_SPHERES || FEAT_DISKS)
+  Surface s;
   Triangle tri = scene->triangles[hit.prim];
   surface_shape(scene, tri.shape, hit.prim, &s);
   triangle_point(scene, tri, hit.b1, hit.b2, &s);
-#endif
   return s;
+#endif
 }
 
 #endif

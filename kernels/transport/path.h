@@ -33,6 +33,7 @@ INLINE real chance_weight(Launch launch, PRIVATE const Walk* walk, real pdf_ligh
 /// The ray left the scene.
 INLINE void walk_escaped(PRIVATE const SceneData* scene, Launch launch, PRIVATE Walk* walk) {
 #if FEAT_LIGHT_ENVIRONMENT
+  if (scene->info.environment == NONE) return;  // compiled in by --features only
   real w = chance_weight(launch, walk, light_pdf_environment(scene));
   walk->radiance += walk->beta * load3(scene->lights[scene->info.environment].value) * w;
 #endif

@@ -1,0 +1,52 @@
+// Compiled with PELLUCID_REAL=double only.
+#include "support/double_twin.h"
+
+#include "support/twin.h"
+
+namespace pellucid::test {
+
+using twin::to_dvec3;
+using twin::to_real3;
+
+ReferenceBsdf reference_bsdf(const ::Material& material, const glm::dvec3& wo, double eta,
+                             bool importance, const glm::dvec3& wi) {
+  const twin::BsdfContext context{to_real3(wo), eta, importance};
+  const twin::BsdfEval e = twin::bsdf_eval(material, context, to_real3(wi));
+  return {to_dvec3(e.f), e.pdf_w};
+}
+
+struct ReferenceScene::State {
+  const PackedScene& packed;
+  std::vector<uint> diag;
+  twin::SceneData data;
+};
+
+ReferenceScene::ReferenceScene(const PackedScene& packed) : state_(new State{packed, {}, {}}) {
+  state_->data = twin::scene_data(packed, state_->diag);
+}
+ReferenceScene::~ReferenceScene() = default;
+
+ReferenceHit ReferenceScene::trace(const glm::dvec3& o, const glm::dvec3& d) const {
+  const twin::Hit hit =
+      twin::bvh_trace(&state_->data, {to_real3(o), to_real3(d), std::numeric_limits<double>::max()}, 0);
+  return {hit.t, hit.prim};
+}
+
+double ReferenceScene::light_pdf(const glm::dvec3& p, const glm::dvec3& w) const {
+  const twin::Ray ray{to_real3(p), to_real3(w), std::numeric_limits<double>::max()};
+  const twin::Hit hit = twin::bvh_trace(&state_->data, ray, 0);
+  if (hit.prim == NONE)
+    return state_->data.info.environment == NONE ? 0.0 : twin::light_pdf_environment(&state_->data);
+  const twin::Surface s = twin::surface_at(&state_->data, ray, hit);
+  if (twin::is_black(twin::light_emitted(&state_->data, &s, -ray.d))) return 0.0;
+  return twin::light_pdf_surface(&state_->data, &s, ray.o, ray.d);
+}
+
+glm::dvec3 ReferenceScene::path(const Launch& launch, uint path_index, double x, double y,
+                                uint* rays) const {
+  const twin::Rng rng{path_index, launch.iteration, launch.seed};
+  const twin::Ray ray = twin::camera_ray(state_->packed.camera, x, y);
+  return to_dvec3(twin::path_radiance(&state_->data, launch, rng, ray, rays));
+}
+
+}  // namespace pellucid::test

@@ -1,0 +1,28 @@
+// What the host writes before every kernel, here for the twin: all effects, width 8, NEE with MIS.
+// No include guard: twin.h includes it right before the kernel core and twin_prelude_end.h after.
+#define SIMD_WIDTH 8
+#define SIMD_BUILTINS 0
+#define BVH_STACK 256
+#define DEV_INT64_ATOMICS 0
+#define FEAT_TRIANGLES 1
+#define FEAT_SPHERES 1
+#define FEAT_DISKS 1
+#define FEAT_SMOOTH_NORMALS 1
+#define FEAT_ONE_SIDED 1
+#define FEAT_DIFFUSE 1
+#define FEAT_PHONG 1
+#define FEAT_MIRROR 1
+#define FEAT_CONDUCTOR 1
+#define FEAT_ROUGH_CONDUCTOR 1
+#define FEAT_DIELECTRIC 1
+#define FEAT_ROUGH_DIELECTRIC 1
+#define FEAT_LIGHT_TRIANGLE 1
+#define FEAT_LIGHT_SPHERE 1
+#define FEAT_LIGHT_DISK 1
+#define FEAT_LIGHT_POINT 1
+#define FEAT_LIGHT_DIRECTIONAL 1
+#define FEAT_LIGHT_ENVIRONMENT 1
+#define INTG_NEE 1
+#define INTG_MIS 1
+#define INTG_UNIFORM 0
+#define INTG_SPLAT 0

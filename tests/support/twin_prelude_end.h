@@ -1,0 +1,23 @@
+// Takes back the macros of twin_prelude.h that share names with the host's Feature enum.
+#undef FEAT_CONDUCTOR
+#undef FEAT_DIELECTRIC
+#undef FEAT_DIFFUSE
+#undef FEAT_DISKS
+#undef FEAT_LIGHT_DIRECTIONAL
+#undef FEAT_LIGHT_DISK
+#undef FEAT_LIGHT_ENVIRONMENT
+#undef FEAT_LIGHT_POINT
+#undef FEAT_LIGHT_SPHERE
+#undef FEAT_LIGHT_TRIANGLE
+#undef FEAT_MIRROR
+#undef FEAT_ONE_SIDED
+#undef FEAT_PHONG
+#undef FEAT_ROUGH_CONDUCTOR
+#undef FEAT_ROUGH_DIELECTRIC
+#undef FEAT_SMOOTH_NORMALS
+#undef FEAT_SPHERES
+#undef FEAT_TRIANGLES
+#undef INTG_MIS
+#undef INTG_NEE
+#undef INTG_SPLAT
+#undef INTG_UNIFORM
