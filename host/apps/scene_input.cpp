@@ -3,6 +3,7 @@
 
 #include <sys/stat.h>
 
+#include "base/error.h"
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/log.h"

@@ -1,0 +1,40 @@
+// Materials and outgoing directions over which every lobe is tested.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "pack/pack.h"
+
+namespace pellucid::test {
+
+struct BsdfCase {
+  std::string name;
+  ::Material material{};
+  glm::dvec3 wo{0.0, 0.0, 1.0};
+  double eta = 1.0;  ///< as in BsdfContext; 1 for opaque kinds
+};
+
+::Material diffuse(const Rgb& reflectance);
+::Material phong(const Rgb& diffuse, const Rgb& specular, double exponent);
+::Material gold(double alpha);
+::Material glass(double ior, double alpha);
+
+/// Every kind with a density, several widths and indices, cos(wo) from 1 to 1e-3.
+std::vector<BsdfCase> density_cases();
+
+/// Relative error that float may make in the density of a microfacet case although sampling and
+/// evaluation agree: both know the half vector to a few roundoffs over its conditioning (1 for
+/// reflection, |eta - 1| for refraction), and D varies by 4/alpha per radian.
+double half_vector_error(const BsdfCase& c);
+
+/// The axis and the scale around which the cells of the chi-square test gather.
+struct LobeShape {
+  glm::dvec3 axis;
+  double width;
+};
+LobeShape reflection_shape(const BsdfCase& c);
+LobeShape transmission_shape(const BsdfCase& c);
+
+}  // namespace pellucid::test
