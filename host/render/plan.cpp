@@ -47,6 +47,16 @@ std::map<std::string, std::size_t> plan_memory(const PackedScene& scene,
   return bytes;
 }
 
+std::vector<std::string> parameter_names(const Pass& pass) {
+  std::vector<std::string> names;
+  for (Bundle bundle : pass.bundles) {
+    for (const std::string& name : bundle_buffers(bundle)) names.push_back(name);
+    if (bundle == Bundle::scene) names.insert(names.end(), {"scene_info", "camera"});
+  }
+  names.push_back("launch");
+  return names;
+}
+
 Specialisation specialise(const PackedScene& scene, const Integrator& integrator,
                           const DeviceInfo& device, const PlanOptions& options) {
   Specialisation s;

@@ -33,6 +33,9 @@ struct PassState {
 std::map<std::string, std::size_t> plan_memory(const PackedScene& scene,
                                                const Integrator& integrator, std::size_t pixels);
 
+/// Parameter names of a pass in order, as its kernel declares them.
+std::vector<std::string> parameter_names(const Pass& pass);
+
 /// What the kernels of this scene, method and device are specialised for.
 Specialisation specialise(const PackedScene& scene, const Integrator& integrator,
                           const DeviceInfo& device, const PlanOptions& options);
