@@ -1,6 +1,9 @@
 // Widths and builtins: one scene must look the same through every layout of nodes and leaves.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
+
 #include "integrators/registry.h"
 #include "render/session.h"
 
