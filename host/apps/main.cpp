@@ -9,6 +9,7 @@
 #include "apps/command.h"
 #include "apps/common.h"
 #include "base/log.h"
+#include "base/signals.h"
 #include "base/text.h"
 #include "base/version.h"
 
@@ -105,6 +106,14 @@ UsageError usage_error(const CLI::App& app, const CLI::ParseError& error) {
       fmt::format("there is no option '{}'.{}", unknown, did_you_mean(unknown, option_names(app))));
 }
 
+/// An empty value is a script's unset variable, not a wish for the default.
+void refuse_empty_values(CLI::App& app) {
+  for (CLI::Option* option : app.get_options())
+    option->check([](const std::string& text) {
+      return text.empty() ? std::string("the value is empty") : std::string();
+    });
+}
+
 struct Program {
   CLI::App app{"pellucid: a light-transport renderer whose methods run in OpenCL.", "pellucid"};
   std::map<const CLI::App*, CommandRun> runs;
@@ -118,7 +127,8 @@ Program::Program() {
   app.set_version_flag("--version", fmt::format("pellucid {}\ncommit {}\nbuild  {}", version(),
                                                 commit(), build_options()));
   app.footer(fmt::format(
-      "{}'pellucid COMMAND --help' tells the options of a command.",
+      "{}'pellucid COMMAND --help' tells the options of a command.\n\nExample: pellucid "
+      "cornell-box",
       is_command(DEFAULT_COMMAND) ? "'pellucid SCENE' means 'pellucid render SCENE'.\n" : ""));
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.require_subcommand(1);
@@ -130,6 +140,7 @@ Program::Program() {
     sub.add_flag("-v,--verbose", verbose, "tell more on stderr")->excludes("--quiet");
     sub.add_option("--json", common.json, "results as JSON into FILE, or '-' for stdout")
         ->type_name("FILE");
+    refuse_empty_values(sub);
   }
 }
 
@@ -197,5 +208,6 @@ ExitCode guarded_run(const Arguments& arguments) {
 }  // namespace pellucid
 
 int main(int argc, char** argv) {
+  pellucid::prepare_process();
   return static_cast<int>(pellucid::guarded_run({argv + 1, argv + argc}));
 }

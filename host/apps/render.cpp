@@ -1,28 +1,42 @@
 // render: from a scene to pictures.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
 #include "apps/common.h"
+#include "apps/outputs.h"
 #include "apps/render_report.h"
 #include "apps/scene_input.h"
+#include "base/files.h"
 #include "base/log.h"
 #include "base/signals.h"
 #include "base/text.h"
 #include "base/timer.h"
-#include "image/tonemap.h"
 #include "integrators/reach.h"
 #include "integrators/registry.h"
 
 namespace pellucid {
 namespace {
 
+constexpr std::size_t DEFAULT_GROUP = 64;  // work-items
+
+/// CLI11 would take -1 and all that is too large for 2^64 - 1.
+std::string whole_number(const std::string& text) {
+  std::uint64_t value = 0;
+  const char* const text_end = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), text_end, value);
+  const bool whole = error == std::errc() && end == text_end;
+  return whole ? "" : fmt::format("takes a whole number such as 7, not '{}'", text);
+}
+
 struct RenderCommand {
   std::string scene, integrator, mis = "balance", time, size, device, features = "auto", kernel_dir,
                                  stats;
   std::vector<std::string> outputs, aovs;
-  std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 64;
+  std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0;
   bool strict = false, deterministic = false;
 
   void declare(CLI::App& app);
@@ -32,6 +46,8 @@ struct RenderCommand {
   RenderOptions options(const Scene& scene, const Integrator& method) const;
   std::vector<std::string> output_names(const Scene& scene) const;
   void check_aovs() const;
+  void check_outputs(const std::vector<std::string>& names, const CommonOptions& common) const;
+  Device open_device(RenderFacts& facts) const;
   ExitCode finish(const RenderFacts& facts, const std::vector<std::string>& names, bool complete,
                   const CommonOptions& common) const;
 };
@@ -50,7 +66,7 @@ void RenderCommand::declare(CLI::App& app) {
   app.add_option("--time", time,
                  "stop after this long, e.g. 60s or 10m; with --spp, whichever is first")
       ->type_name("DURATION");
-  app.add_option("--seed", seed, "random seed (default 0)");
+  app.add_option("--seed", seed, "random seed (default 0)")->check(whole_number);
   app.add_option("--size", size, "image size in pixels, e.g. 640x480 (default: the scene's)")
       ->type_name("WxH");
   app.add_option("--max-depth", max_depth,
@@ -107,17 +123,13 @@ RenderOptions RenderCommand::options(const Scene& s, const Integrator& method) c
   o.mis = parse_mis(mis, method);
   o.plan.extra_features = parse_feature_request(features);
   o.plan.kernel_dir = kernel_dir;
-  o.plan.group = group;
+  if (group) o.plan.group = group;
   return o;
 }
 
 std::vector<std::string> RenderCommand::output_names(const Scene& s) const {
   if (outputs.empty()) return {s.name + ".exr", s.name + ".png"};
-  for (const std::string& name : outputs) {
-    const size_t slash = name.rfind('/'), dot = name.rfind('.');
-    if (dot == std::string::npos || (slash != std::string::npos && dot < slash))
-      throw UsageError("-o " + name + ": the suffix tells the type, e.g. .exr or .png");
-  }
+  check_picture_types(outputs);
   return outputs;
 }
 
@@ -126,12 +138,6 @@ void RenderCommand::check_aovs() const {
     if (aov != "variance" && aov != "samples")
       throw UsageError("--aov: there is no '" + aov + "'; there are variance, samples." +
                        did_you_mean(aov, {"variance", "samples"}));
-}
-
-bool display_referred(const std::string& path) {
-  const std::string suffix = path.substr(path.rfind('.') + 1);
-  return suffix != "exr" && suffix != "hdr" && suffix != "pfm" && suffix != "tif" &&
-         suffix != "tiff";
 }
 
 /// Writes every output of a film; facts carry the evidence.
@@ -144,8 +150,7 @@ void write_outputs(const std::vector<FilmPixel>& film, const std::vector<std::st
   Image image = film_image(film, facts.options.width, facts.options.height, asked("variance"),
                            asked("samples"));
   add_evidence(facts, deterministic, image);
-  for (const std::string& name : names)
-    write_image(name, display_referred(name) ? to_display(image) : image);
+  write_pictures(names, image);
 }
 
 void log_result(const RenderFacts& f) {
@@ -168,13 +173,39 @@ bool render_with_progress(Session& session, StopSignal& stop, const std::string&
   hooks.stop = [&] { return stop.stop_requested(); };
   hooks.progress = [&](const std::string& text) { progress.update(text); };
   hooks.wants_image = [&] { return stop.take_write_request(); };
-  hooks.image = write;
+  hooks.image = [&](const std::vector<FilmPixel>& film) {
+    try {
+      write(film);
+      log_info("the image so far is written");
+    } catch (const OutputError& e) {  // the render is worth more than this look at it
+      log_warn("{}; the render goes on", e.what());
+    }
+  };
   return session.run(hooks);
+}
+
+/// What cannot be written must show before the render, not after it.
+void RenderCommand::check_outputs(const std::vector<std::string>& names,
+                                  const CommonOptions& common) const {
+  for (const std::string& name : names) check_writable(name);
+  if (!stats.empty()) check_writable(stats);
+  if (!common.json.empty() && common.json != "-") check_writable(common.json);
+}
+
+/// The device, if the film fits into it, and what it decides about the options.
+Device RenderCommand::open_device(RenderFacts& facts) const {
+  Device target = Device::open(device);
+  RenderOptions& o = facts.options;
+  const std::size_t pixels = std::size_t(o.width) * std::size_t(o.height);
+  check_memory(target.info(), plan_memory({}, *facts.integrator, pixels));
+  if (!group) o.plan.group = std::min(DEFAULT_GROUP, target.info().max_group);
+  return target;
 }
 
 ExitCode RenderCommand::finish(const RenderFacts& facts, const std::vector<std::string>& names,
                                bool complete, const CommonOptions& common) const {
   log_result(facts);
+  if (!complete) log_warn("stopped early; what was rendered is written");
   for (const std::string& what :
        unreachable_paths(*facts.integrator, facts.session->plan().specialisation().features))
     log_info("'{}' cannot see {}", facts.integrator->name, what);
@@ -204,11 +235,12 @@ ExitCode RenderCommand::run(const CommonOptions& common) const {
   facts.scene = &s;
   facts.integrator = &method;
   facts.scene_hash = scene_hash(s);
+  check_outputs(names, common);
   load_image_library();  // a broken installation must show before the render, not after it
+  const Device target = open_device(facts);
+  facts.device = &target.info();
   facts.seconds.load = total.seconds();
 
-  const Device target = Device::open(device);
-  facts.device = &target.info();
   Timer phase;
   const PackedScene packed = [&] {
     Progress progress("building BVH");
@@ -220,6 +252,7 @@ ExitCode RenderCommand::run(const CommonOptions& common) const {
     return Session(target, packed, method, facts.options);
   }();
   facts.session = &session;
+  stop.reinstall();
   facts.seconds.kernels = session.kernel_seconds();
 
   const auto write = [&](const std::vector<FilmPixel>& film) {

@@ -43,7 +43,7 @@ glm::dmat4 camera_to_ndc(const ::Camera& camera, int width, int height) {
 std::vector<float> row_vector_matrix(const glm::dmat4& m) {
   std::vector<float> out;
   for (int c = 0; c < 4; ++c)
-    for (int r = 0; r < 4; ++r) out.push_back(float(m[c][r]));
+    for (int r = 0; r < 4; ++r) out.push_back(float(m[c][r]) + 0.0f);  // no -0
   return out;
 }
 

@@ -81,6 +81,13 @@ void AtomicFile::fail(int error) const {
   throw OutputError(fmt::format("cannot write '{}': {}", path_, system_reason(error)));
 }
 
+void check_writable(const std::string& path) {
+  struct stat info;
+  const bool exists = stat(path.c_str(), &info) == 0;
+  if (exists && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)) return;
+  const AtomicFile trial(path);
+}
+
 void write_text_atomic(const std::string& path, std::string_view text) {
   AtomicFile file(path);
   file.write(text.data(), text.size());

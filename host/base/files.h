@@ -35,6 +35,10 @@ class AtomicFile {
   bool done_ = false;
 };
 
+/// Whether `path` could be written now, found out by trying: throws the OutputError that writing
+/// would, and leaves nothing behind. Pipes and devices are not touched.
+void check_writable(const std::string& path);
+
 /// Throws OutputError; `path` is always a file name ("-" is not standard output here).
 void write_text_atomic(const std::string& path, std::string_view text);
 

@@ -1,6 +1,7 @@
 // Handlers do nothing but set lock-free flags, so they are safe in any thread at any time.
 #include "base/signals.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -35,6 +36,16 @@ void install(int number, void (*handler)(int), struct sigaction& old) {
 
 }  // namespace
 
+void prepare_process() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd) {
+    // open() takes the lowest free number, which is this one. Opened the wrong way round on
+    // purpose: using it must fail as it would have without us.
+    if (fcntl(fd, F_GETFD) < 0) (void)open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
 StopSignal::StopSignal() {
   PELLUCID_CHECK(!installed.exchange(true), "only one StopSignal lives at a time");
   stop_number = 0;
@@ -42,6 +53,13 @@ StopSignal::StopSignal() {
   install(SIGINT, on_stop, old_int_);
   install(SIGTERM, on_stop, old_term_);
   install(SIGUSR1, on_write, old_usr1_);
+}
+
+void StopSignal::reinstall() {
+  struct sigaction theirs;
+  install(SIGINT, on_stop, theirs);
+  install(SIGTERM, on_stop, theirs);
+  install(SIGUSR1, on_write, theirs);
 }
 
 StopSignal::~StopSignal() {

@@ -22,8 +22,13 @@ float survive(double albedo) {
   return static_cast<float>(std::clamp(albedo, 0.0, 1.0));
 }
 
+/// Compared as the kernels see it: 0.001 in a scene file is at the limit, not below it.
+bool wide_enough(const Material& m) {
+  return float(m.alpha) >= ALPHA_DELTA;
+}
+
 void pack_conductor(const Material& m, ::Material& out, FeatureSet& features) {
-  const bool rough = m.alpha >= double(ALPHA_DELTA);
+  const bool rough = wide_enough(m);
   out.kind = rough ? MATERIAL_ROUGH_CONDUCTOR : MATERIAL_CONDUCTOR;
   features.set(rough ? FEAT_ROUGH_CONDUCTOR : FEAT_CONDUCTOR);
   out.eta_specular = to_f4(m.eta);
@@ -34,7 +39,7 @@ void pack_conductor(const Material& m, ::Material& out, FeatureSet& features) {
 void pack_dielectric(const Material& m, ::Material& out, FeatureSet& features) {
   // An index-matched rough surface has no half vector for refraction; it does nothing to light
   // anyway.
-  const bool rough = m.alpha >= double(ALPHA_DELTA) && std::abs(m.ior - 1.0) >= double(IOR_MATCHED);
+  const bool rough = wide_enough(m) && std::abs(m.ior - 1.0) >= double(IOR_MATCHED);
   out.kind = rough ? MATERIAL_ROUGH_DIELECTRIC : MATERIAL_DIELECTRIC;
   features.set(rough ? FEAT_ROUGH_DIELECTRIC : FEAT_DIELECTRIC);
   out.survive = 1.0f;

@@ -137,11 +137,6 @@ std::vector<FilmPixel> Plan::read_film() {
   return film;
 }
 
-void Plan::write_film(const std::vector<FilmPixel>& film) {
-  PELLUCID_CHECK(film.size() == pixels_, "film size");
-  device_.write(buffers_.at("film"), film.data(), film.size() * sizeof(FilmPixel));
-}
-
 void Plan::collect(std::vector<Counter>& counters) {
   std::vector<uint> counts(DIAG_COUNT);
   device_.read(buffers_.at("diag"), counts.data(), counts.size() * sizeof(uint));

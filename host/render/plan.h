@@ -52,7 +52,6 @@ class Plan {
   void finish() { device_.finish(); }
 
   std::vector<FilmPixel> read_film();
-  void write_film(const std::vector<FilmPixel>& film);
   /// Adds the device's counters to `counters` and clears them.
   void collect(std::vector<Counter>& counters);
 

@@ -28,12 +28,28 @@ constexpr double batch_seconds = 0.2;
 Plan timed_plan(const Device& device, const PackedScene& scene, const Integrator& integrator,
                 const RenderOptions& options, double& seconds) {
   const Timer timer;
+  const std::size_t pixels = std::size_t(options.width) * std::size_t(options.height);
+  check_memory(device.info(), plan_memory(scene, integrator, pixels));
   Plan plan(device, scene, integrator, options.plan, uint(options.width), uint(options.height));
   seconds = timer.seconds();
   return plan;
 }
 
 }  // namespace
+
+void check_memory(const DeviceInfo& device, const std::map<std::string, std::size_t>& buffers) {
+  std::uint64_t total = 0;
+  for (const auto& [name, bytes] : buffers) {
+    total += bytes;
+    if (bytes > device.max_buffer)
+      throw DeviceError(fmt::format("buffer '{}' needs {}, but one buffer on {} holds at most {}",
+                                    name, format_bytes(bytes), device.name,
+                                    format_bytes(device.max_buffer)));
+  }
+  if (total > device.memory)
+    throw DeviceError(fmt::format("this render needs {} of device memory, but {} has {}",
+                                  format_bytes(total), device.name, format_bytes(device.memory)));
+}
 
 Session::Session(const Device& device, const PackedScene& scene, const Integrator& integrator,
                  const RenderOptions& options)
@@ -67,6 +83,7 @@ std::string Session::progress_text(double elapsed) const {
 
 bool Session::run(const RenderHooks& hooks) {
   const Timer timer;
+  const double seconds_before = render_seconds_;
   bool stopped = false;
   while (!stopped) {
     const double elapsed = timer.seconds();
@@ -79,10 +96,14 @@ bool Session::run(const RenderHooks& hooks) {
     }
     plan_.finish();
     if (hooks.progress) hooks.progress(progress_text(timer.seconds()));
-    if (hooks.wants_image && hooks.wants_image()) hooks.image(plan_.read_film());
+    render_seconds_ = seconds_before + timer.seconds();
+    if (hooks.wants_image && hooks.wants_image()) {
+      plan_.collect(counters_);
+      hooks.image(plan_.read_film());
+    }
     stopped = hooks.stop && hooks.stop();
   }
-  render_seconds_ += timer.seconds();
+  render_seconds_ = seconds_before + timer.seconds();
   plan_.collect(counters_);
   return !stopped || (options_.spp && iteration_ >= *options_.spp);
 }

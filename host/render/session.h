@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -27,6 +28,10 @@ struct RenderHooks {
   std::function<bool()> wants_image;  ///< true: hand out the image so far ...
   std::function<void(const std::vector<FilmPixel>&)> image;  ///< ... to this
 };
+
+/// Throws DeviceError with the figures if `device` has too little memory for these buffers; asking
+/// before anything is allocated saves the time until an allocation fails.
+void check_memory(const DeviceInfo& device, const std::map<std::string, std::size_t>& buffers);
 
 class Session {
  public:

@@ -1,0 +1,61 @@
+// The types of pictures, by suffix.
+#include "apps/outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "image/tonemap.h"
+
+namespace pellucid {
+namespace {
+
+const std::vector<std::string> LINEAR_TYPES = {"exr", "hdr", "tif", "tiff"};
+const std::vector<std::string> DISPLAY_TYPES = {"png", "jpg", "jpeg", "bmp", "tga", "ppm", "webp"};
+
+bool contains(const std::vector<std::string>& list, const std::string& item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+/// In small letters, without the dot; "" if there is none.
+std::string suffix_of(const std::string& name) {
+  const std::size_t slash = name.rfind('/'), dot = name.rfind('.');
+  if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return "";
+  std::string suffix = name.substr(dot + 1);
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return suffix;
+}
+
+}  // namespace
+
+void check_picture_types(const std::vector<std::string>& names) {
+  std::vector<std::string> types = LINEAR_TYPES;
+  types.insert(types.end(), DISPLAY_TYPES.begin(), DISPLAY_TYPES.end());
+  for (const std::string& name : names) {
+    const std::string suffix = suffix_of(name);
+    if (contains(types, suffix)) continue;
+    const std::string what =
+        suffix.empty() ? "the suffix tells the type, but there is none" : "unknown type of picture";
+    throw UsageError(fmt::format("-o '{}': {}; there are {}.{}", name, what, join(types),
+                                 did_you_mean(suffix, types)));
+  }
+}
+
+void write_pictures(const std::vector<std::string>& names, const Image& linear) {
+  std::exception_ptr first;
+  for (const std::string& name : names) {
+    try {
+      write_image(name, contains(DISPLAY_TYPES, suffix_of(name)) ? to_display(linear) : linear);
+    } catch (const OutputError&) {
+      if (!first) first = std::current_exception();
+    }
+  }
+  if (first) std::rethrow_exception(first);
+}
+
+}  // namespace pellucid

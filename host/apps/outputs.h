@@ -1,0 +1,18 @@
+// Pictures as files: which suffixes there are, whether the files can be written, and writing them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+
+namespace pellucid {
+
+/// Throws UsageError if a suffix names no type of picture that we write.
+void check_picture_types(const std::vector<std::string>& names);
+
+/// Writes a linear image to every name, tone-mapped where the type holds display values. One that
+/// fails does not keep the others from being written; the first OutputError is thrown at the end.
+void write_pictures(const std::vector<std::string>& names, const Image& linear);
+
+}  // namespace pellucid
