@@ -71,14 +71,25 @@ std::uint64_t Session::batch_size(double seconds_per_iteration) const {
   return batch;
 }
 
-std::string Session::progress_text(double elapsed) const {
+std::string Session::progress_text(double elapsed) {
+  if (elapsed >= next_look_) {
+    const Timer cost;
+    seen_ = summarise(plan_.read_film());
+    // Rays and noise need the whole film: seldom enough to stay below 2 % of the time.
+    constexpr double least_pause = 1.0, times_its_cost = 50.0;
+    next_look_ = elapsed + std::max(least_pause, times_its_cost * cost.seconds());
+  }
   const double done_spp = options_.spp ? double(iteration_) / double(*options_.spp) : 0.0;
   const double done_time = options_.seconds ? elapsed / *options_.seconds : 0.0;
   const double done = std::min(1.0, std::max(done_spp, done_time));
   const double left = done > 0 ? elapsed / done - elapsed : 0.0;
-  return fmt::format("{:3.0f} %  {} spp  {:.2f} Mpaths/s  {} left", 100 * done, iteration_,
-                     1e-6 * double(iteration_) * options_.width * options_.height / elapsed,
-                     format_seconds(left));
+  const double rays_per_iteration =
+      double(seen_.rays) / double(std::max<std::uint64_t>(seen_.iterations, 1));
+  return fmt::format("{:3.0f} %  pass {}  {:.1f} Mrays/s  {} left{}", 100 * done, iteration_,
+                     1e-6 * rays_per_iteration * double(iteration_) / elapsed, format_seconds(left),
+                     std::isfinite(seen_.relmse)
+                         ? fmt::format("  noise {:.2g} %", 100 * std::sqrt(seen_.relmse))
+                         : "");
 }
 
 bool Session::run(const RenderHooks& hooks) {

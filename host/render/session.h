@@ -50,12 +50,14 @@ class Session {
 
  private:
   std::uint64_t batch_size(double seconds_per_iteration) const;
-  std::string progress_text(double elapsed) const;
+  std::string progress_text(double elapsed);
 
   RenderOptions options_;
   double kernel_seconds_ = 0;
   Plan plan_;
   Launch launch_{};
+  FilmSummary seen_;      ///< of the last look at the film, for the progress line
+  double next_look_ = 0;  ///< seconds after the start of run()
   std::uint64_t iteration_ = 0;
   double render_seconds_ = 0;
   std::vector<Counter> counters_ = make_counters();
