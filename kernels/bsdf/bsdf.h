@@ -20,6 +20,7 @@ INLINE int bsdf_is_transmissive(Material m) {
 
 /// f and density of the non-delta part for local directions (see bsdf/lobe.h).
 INLINE BsdfEval bsdf_eval(Material m, BsdfContext c, real3 wi) {
+  if (c.wo.z < (real)COS_MIN || r_abs(wi.z) < (real)COS_MIN) return bsdf_eval_none();
   switch (m.kind) {
 #if FEAT_DIFFUSE
     case MATERIAL_DIFFUSE:
@@ -44,6 +45,7 @@ INLINE BsdfEval bsdf_eval(Material m, BsdfContext c, real3 wi) {
 
 /// Draws wi; `lobe`, `u`, `v` in [0, 1).
 INLINE BsdfSample bsdf_sample(Material m, BsdfContext c, real lobe, real u, real v) {
+  if (c.wo.z < (real)COS_MIN) return bsdf_sample_none();
   switch (m.kind) {
 #if FEAT_DIFFUSE
     case MATERIAL_DIFFUSE:

@@ -5,14 +5,15 @@
 #include "core/real.h"
 
 /// Reflectance of a dielectric met at cosine `cos_i` in [0, 1] with eta = transmitted / incident
-/// index; *cos_t receives the cosine of the refracted direction (0 under total reflection).
+/// index; *cos_t receives the cosine of the refracted direction (0 under total reflection). Written
+/// without 1 - cos^2, which would see total reflection at grazing angles where eta is 1.
 INLINE real fresnel_dielectric(real cos_i, real eta, PRIVATE real* cos_t) {
-  real sin2_t = (REAL(1.0) - cos_i) * (REAL(1.0) + cos_i) / (eta * eta);
-  if (sin2_t >= REAL(1.0)) {
+  real k2 = (eta - REAL(1.0)) * (eta + REAL(1.0)) + cos_i * cos_i;  // (eta cos_t)^2
+  if (k2 <= REAL(0.0)) {
     *cos_t = REAL(0.0);
     return REAL(1.0);
   }
-  real ct = r_sqrt(REAL(1.0) - sin2_t);
+  real ct = r_min(r_sqrt(k2) / eta, REAL(1.0));
   *cos_t = ct;
   real parallel = (eta * cos_i - ct) / (eta * cos_i + ct);
   real perpendicular = (cos_i - eta * ct) / (cos_i + eta * ct);

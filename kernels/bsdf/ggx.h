@@ -7,15 +7,14 @@
 
 /// D(h) [1/sr] for a unit h with h.z > 0 [Walter07 eq. 33].
 INLINE real ggx_d(real3 h, real alpha) {
-  real z2 = h.z * h.z;
   real a2 = alpha * alpha;
-  real t = (h.x * h.x + h.y * h.y) / (a2 * z2);
-  real k = z2 * (REAL(1.0) + t);
+  real k = h.z * h.z + (h.x * h.x + h.y * h.y) / a2;  // cos^2 (1 + tan^2 / alpha^2)
   return INV_PI / (a2 * k * k);
 }
-/// sqrt(1 + alpha^2 tan^2): G1 = 2 / (1 + s), correlated G2 = 2 / (s_o + s_i) [Heitz14 eq. 72, 99].
-INLINE real ggx_s(real3 w, real alpha) {
-  return r_sqrt(REAL(1.0) + alpha * alpha * (w.x * w.x + w.y * w.y) / (w.z * w.z));
+/// v = |w.z| sqrt(1 + alpha^2 tan^2), which stays finite at grazing angles: G1 = 2 z / (z + v),
+/// correlated G2 = 2 z_o z_i / (v_o z_i + v_i z_o) [Heitz14 eq. 72, 99].
+INLINE real ggx_v(real3 w, real alpha) {
+  return r_sqrt(w.z * w.z + alpha * alpha * (w.x * w.x + w.y * w.y));
 }
 
 /// Visible normal for wo (wo.z > 0), density G1 max(0, wo.h) D / wo.z [Heitz18].

@@ -12,7 +12,8 @@ INLINE BsdfEval phong_eval(Material m, real3 wo, real3 wi) {
   real n = (real)m.eta_specular.w;
   real prob_diffuse = (real)m.reflectance.w;
   real cos_a = r_clamp(wo.z * wi.z - wo.x * wi.x - wo.y * wi.y, REAL(0.0), REAL(1.0));
-  real lobe = pow_unit(cos_a, n) * INV_TWO_PI;
+  // No lobe behind the mirror direction: 0^0 = 1 would put one there for n = 0.
+  real lobe = cos_a > REAL(0.0) ? pow_unit(cos_a, n) * INV_TWO_PI : REAL(0.0);
   e.f = load3(m.reflectance) * INV_PI + load3(m.eta_specular) * ((n + REAL(2.0)) * lobe);
   e.pdf_w = prob_diffuse * wi.z * INV_PI + (REAL(1.0) - prob_diffuse) * (n + REAL(1.0)) * lobe;
   return e;

@@ -10,12 +10,11 @@ INLINE BsdfEval rough_conductor_eval(Material m, real3 wo, real3 wi) {
   if (wi.z <= REAL(0.0)) return e;
   real alpha = (real)m.alpha;
   real3 h = normalize3(wo + wi);
-  real so = ggx_s(wo, alpha), si = ggx_s(wi, alpha);
-  real d = ggx_d(h, alpha);
-  real common = d / (REAL(2.0) * wo.z);
-  e.pdf_w = common / (REAL(1.0) + so);
+  real vo = ggx_v(wo, alpha), vi = ggx_v(wi, alpha);
+  real half_d = REAL(0.5) * ggx_d(h, alpha);
+  e.pdf_w = half_d / (wo.z + vo);
   e.f = fresnel_conductor(r_min(dot3(wo, h), REAL(1.0)), load3(m.eta_specular), load3(m.k)) *
-        (common / ((so + si) * wi.z));
+        (half_d / (vo * wi.z + vi * wo.z));
   return e;
 }
 
@@ -24,11 +23,11 @@ INLINE BsdfSample rough_conductor_sample(Material m, real3 wo, real u, real v) {
   real alpha = (real)m.alpha;
   real3 h = ggx_sample_visible(wo, alpha, u, v);
   s.wi = reflect_about(wo, h);
-  if (s.wi.z <= REAL(0.0)) return bsdf_sample_none();
-  real so = ggx_s(wo, alpha), si = ggx_s(s.wi, alpha);
-  s.pdf_w = ggx_d(h, alpha) / (REAL(2.0) * wo.z * (REAL(1.0) + so));
+  if (s.wi.z < (real)COS_MIN) return bsdf_sample_none();
+  real vo = ggx_v(wo, alpha), vi = ggx_v(s.wi, alpha);
+  s.pdf_w = REAL(0.5) * ggx_d(h, alpha) / (wo.z + vo);
   s.weight = fresnel_conductor(r_min(dot3(wo, h), REAL(1.0)), load3(m.eta_specular), load3(m.k)) *
-             ((REAL(1.0) + so) / (so + si));
+             ((wo.z + vo) * s.wi.z / (vo * s.wi.z + vi * wo.z));
   return s;
 }
 

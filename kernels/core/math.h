@@ -18,11 +18,12 @@ typedef struct SinCos {
 
 #if PELLUCID_DEVICE || defined(PELLUCID_REAL_IS_FLOAT)
 
-/// sin and cos of 2 pi u for u in [0, 1], to 1.5 ulp of 1: quadrant in exact arithmetic, then
-/// Taylor-like polynomials on [-pi/4, pi/4].
+/// sin and cos of 2 pi u for u in [0, 1], absolute error below 1.5 * 2^-24: quadrant in exact
+/// arithmetic, 2 pi in two floats, then Taylor-like polynomials on [-pi/4, pi/4].
 INLINE SinCos sincos_2pi(float u) {
   int quadrant = (int)(u * 4.0f + 0.5f);
-  float a = (u - 0.25f * (float)quadrant) * 6.28318530717958647692f;
+  float rest = u - 0.25f * (float)quadrant;
+  float a = r_fma(rest, 6.28318548202514648438f, rest * -1.7484555e-7f);
   float a2 = a * a;
   float s =
       a +
@@ -43,28 +44,35 @@ INLINE SinCos sincos_2pi(float u) {
   return r;
 }
 
-/// log2 of a normal positive float, absolute error below 2^-23 near 1 and 1 ulp elsewhere. The
-/// result comes as high + low so that pow keeps its digits.
+/// log2 of a normal positive float as high + low, relative error below 2^-27: pow multiplies it by
+/// up to 126 / log2(x) and must still know the fraction to half an ulp.
 INLINE float log2_split(float x, PRIVATE float* low) {
   uint bits = real_bits(x);
   int e = (int)((bits - 0x3f3504f3u) >> 23);  // mantissa into [sqrt(1/2), sqrt(2))
   e = (bits < 0x3f3504f3u) ? e - 512 : e;
   float m = real_from_bits(bits - ((uint)e << 23));
-  float f = (m - 1.0f) / (m + 1.0f);  // |f| < 0.1716
+  float m1 = m + 1.0f;
+  float m1_low = m - (m1 - 1.0f);  // what rounding m + 1 lost
+  float f = (m - 1.0f) / m1;       // |f| < 0.1716
   float f2 = f * f;
   // log2(m) = 2/ln2 (f + f^3/3 + f^5/5 + ...); the leading term keeps its rounding error in `low`.
   float lead = 2.885390043258667f * f;
   float lead_low = r_fma(2.885390043258667f, f, -lead) + 3.851925e-8f * f;
-  float f_error = r_fma(-f, m + 1.0f, m - 1.0f) / (m + 1.0f);
+  float f_error = (r_fma(-f, m1, m - 1.0f) - f * m1_low) / m1;
   float tail =
-      f * f2 * r_fma(f2, r_fma(f2, r_fma(f2, 0.32059889f, 0.41219858f), 0.57707802f), 0.96179669f);
+      f * f2 *
+      r_fma(f2, r_fma(f2, r_fma(f2, r_fma(f2, 0.26230819f, 0.32059890f), 0.41219858f), 0.57707802f),
+            0.96179669f);
   float fe = (float)e;
   float sum = fe + lead;
-  *low = ((fe - sum) + lead) + (lead_low + 2.8853900f * f_error + tail);
-  return sum;
+  float rest = ((fe - sum) + lead) + (lead_low + 2.8853900f * f_error + tail);
+  float high = sum + rest;  // now |low| <= half an ulp of high, whatever y multiplies it
+  *low = rest - (high - sum);
+  return high;
 }
 
-/// 2^x for x in [-126, 127], 1 ulp; below it 0, above it clipped to 2^127.
+/// 2^(x + low) for x in [-126, 127] and |low| far below 1, 1 ulp; below it 0, above it clipped to
+/// 2^127.
 INLINE float exp2_split(float x, float low) {
   if (x < -126.0f) return 0.0f;
   x = r_min(x, 127.0f);

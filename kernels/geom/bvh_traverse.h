@@ -20,7 +20,7 @@ typedef struct RaySlabs {
 
 INLINE void slab_axis(real o, real d, real reach, PRIVATE real* inv, PRIVATE real* inv_far,
                       PRIVATE real* near_add, PRIVATE real* far_add) {
-  real safe = sign_of(r_max(r_abs(d), REAL(1e-18) /* DIRECTION_MIN */), d);
+  real safe = sign_of(r_max(r_abs(d), (real)DIRECTION_MIN), d);
   real i = REAL(1.0) / safe;
   real pad = (real)(BOX_PAD_ULPS * UNIT_ROUNDOFF) * (r_abs(o) + reach) * r_abs(i);
   *inv = i;

@@ -4,6 +4,7 @@
 #define PELLUCID_LIGHT_LIGHT_H
 
 #include "core/frame.h"
+#include "core/rng.h"
 #include "core/warp.h"
 #include "geom/surface.h"
 
@@ -24,12 +25,14 @@ INLINE real3 light_emitted(PRIVATE const SceneData* scene, PRIVATE const Surface
   return load3(scene->lights[s->light].value);
 }
 
-/// Light chosen by an alias table [Walker77]: slot from u, then the slot's own light or its alias.
-INLINE uint light_pick(PRIVATE const SceneData* scene, real u) {
-  real scaled = u * (real)scene->info.light_count;
-  uint slot = (uint)scaled;
-  slot = slot < scene->info.light_count ? slot : scene->info.light_count - 1u;
-  return scaled - (real)slot < (real)scene->lights[slot].value.w ? slot : scene->lights[slot].alias;
+/// Light chosen by an alias table [Walker77]: slot from `u`, then the slot's own light if `keep` is
+/// below its threshold, else its alias. Two numbers, since what 24 bits leave of u behind the slot
+/// would pick the weakest of 1e5 lights many times too often.
+INLINE uint light_pick(PRIVATE const SceneData* scene, real u, real keep) {
+  uint count = scene->info.light_count;
+  uint slot = (uint)(u * (real)count);
+  slot = slot < count ? slot : count - 1u;
+  return keep < (real)scene->lights[slot].value.w ? slot : scene->lights[slot].alias;
 }
 
 /// Cone under which a sphere is seen from p: false from inside (then its area is sampled instead).
@@ -154,30 +157,30 @@ INLINE void sample_disk_light(PRIVATE const SceneData* scene, Light light, real3
   sample_surface_point(scene, light, p, &s, out);
 }
 
-/// Samples one light from p. radiance = 0 where the sample carries nothing.
-INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, real pick, real u,
-                                real v) {
+/// Samples one light from p: u.x and u.w pick it, u.y and u.z its point. radiance = 0 where the
+/// sample carries nothing.
+INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, Random4 u) {
   LightSample out;
   out.wi = REAL3(0.0f, 0.0f, 1.0f);
   out.target = p;
   out.radiance = REAL3(0.0f, 0.0f, 0.0f);
   out.pdf_w = REAL(0.0);
   out.delta = out.at_infinity = 0;
-  Light light = scene->lights[light_pick(scene, pick)];
+  Light light = scene->lights[light_pick(scene, u.x, u.w)];
   switch (light.kind) {
 #if FEAT_LIGHT_TRIANGLE
     case LIGHT_TRIANGLE:
-      sample_triangle_light(scene, light, p, u, v, &out);
+      sample_triangle_light(scene, light, p, u.y, u.z, &out);
       break;
 #endif
 #if FEAT_LIGHT_SPHERE
     case LIGHT_SPHERE:
-      sample_sphere_light(scene, light, p, u, v, &out);
+      sample_sphere_light(scene, light, p, u.y, u.z, &out);
       break;
 #endif
 #if FEAT_LIGHT_DISK
     case LIGHT_DISK:
-      sample_disk_light(scene, light, p, u, v, &out);
+      sample_disk_light(scene, light, p, u.y, u.z, &out);
       break;
 #endif
 #if FEAT_LIGHT_POINT
@@ -203,7 +206,7 @@ INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, real pi
 #endif
 #if FEAT_LIGHT_ENVIRONMENT
     case LIGHT_ENVIRONMENT:
-      out.wi = warp_sphere(u, v);
+      out.wi = warp_sphere(u.y, u.z);
       out.radiance = load3(light.value);
       out.pdf_w = (real)light.prob_pick * INV_FOUR_PI;
       out.at_infinity = 1;

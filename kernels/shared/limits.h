@@ -22,6 +22,10 @@
 /// GGX below this width is packed as a delta: half-vector cosines lose it in float (numerics 12).
 #define ALPHA_DELTA 1e-3f
 
+/// Nothing scatters at cosines below this: half vectors of two such directions, and f itself, would
+/// leave the range of numbers. Light lost: at most the square of it.
+#define COS_MIN 1e-12f
+
 /// |ior - 1| below this is an index-matched surface: the half vector of a refraction would be 0/0.
 #define IOR_MATCHED 1e-4f
 

@@ -57,8 +57,7 @@ INLINE void walk_emission(PRIVATE const SceneData* scene, Launch launch, PRIVATE
 INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uint bounce,
                      PRIVATE const Vertex* v, PRIVATE Walk* walk) {
 #if INTG_NEE
-  Random4 u = rng4(rng, DIM_LIGHT(bounce));
-  LightSample light = light_sample(scene, v->surface.p, u.x, u.y, u.z);
+  LightSample light = light_sample(scene, v->surface.p, rng4(rng, DIM_LIGHT(bounce)));
   if (is_black(light.radiance)) return;
   real cos_wi;
   BsdfEval e = vertex_eval(v, light.wi, &cos_wi);
@@ -91,7 +90,7 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
 INLINE int walk_scatter(Rng rng, uint bounce, PRIVATE const Vertex* v, PRIVATE Walk* walk) {
   Random4 u = rng4(rng, DIM_BSDF(bounce));
 #if INTG_UNIFORM
-  real survive = REAL(0.9); /* REFERENCE_SURVIVE */
+  real survive = (real)REFERENCE_SURVIVE;
 #else
   real survive = (real)v->material.survive;
 #endif

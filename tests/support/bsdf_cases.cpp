@@ -47,8 +47,9 @@ void add(std::vector<BsdfCase>& cases, const std::string& name, const ::Material
   Material m;
   m.kind = MaterialKind::conductor;
   m.alpha = alpha;
-  const auto found = std::find_if(metals().begin(), metals().end(),
-                                  [](const Metal& metal) { return metal.name == std::string("gold"); });
+  const auto found = std::find_if(metals().begin(), metals().end(), [](const Metal& metal) {
+    return metal.name == std::string("gold");
+  });
   m.eta = found->eta;
   m.k = found->k;
   return packed(m);
@@ -76,13 +77,17 @@ std::vector<BsdfCase> density_cases() {
   return cases;
 }
 
-double half_vector_error(const BsdfCase& c) {
-  if (c.material.kind != MATERIAL_ROUGH_DIELECTRIC && c.material.kind != MATERIAL_ROUGH_CONDUCTOR)
-    return 0.0;
-  const double conditioning =
-      c.material.kind == MATERIAL_ROUGH_DIELECTRIC ? std::min(1.0, std::abs(c.eta - 1.0)) : 1.0;
-  constexpr double roundoffs = 8.0;  // three components of wo, wi and of their sum
-  return 4.0 * roundoffs * double(UNIT_ROUNDOFF) / (conditioning * c.material.alpha);
+double half_vector_error(const BsdfCase& c, const glm::dvec3& wi) {
+  const bool dielectric = c.material.kind == MATERIAL_ROUGH_DIELECTRIC;
+  if (!dielectric && c.material.kind != MATERIAL_ROUGH_CONDUCTOR) return 0.0;
+  constexpr double roundoffs = 8.0 * double(UNIT_ROUNDOFF);  // components of wo, wi and of the sum
+  const glm::dvec3 sum = c.wo + wi * (wi.z > 0 ? 1.0 : c.eta);
+  const double length = glm::length(sum);
+  const double error = 4.0 * roundoffs / (length * c.material.alpha);
+  if (!dielectric) return error;
+  const double cos_h = std::abs(glm::dot(c.wo, sum)) / length;
+  const double k2 = std::abs((c.eta - 1) * (c.eta + 1) + cos_h * cos_h);
+  return error + roundoffs * (1 + 1 / length) / k2 + roundoffs / (length * cos_h);
 }
 
 LobeShape reflection_shape(const BsdfCase& c) {
@@ -99,10 +104,11 @@ LobeShape reflection_shape(const BsdfCase& c) {
 
 LobeShape transmission_shape(const BsdfCase& c) {
   const glm::dvec3 bent(-c.wo.x / c.eta, -c.wo.y / c.eta, 0.0);
-  const double sin2 = glm::dot(bent, bent);
-  const double width = c.material.alpha * std::min(1.0, std::abs(c.eta - 1.0));
-  if (sin2 >= 1.0) return {{bent.x, bent.y, -1e-3}, width};
-  return {{bent.x, bent.y, -std::sqrt(1 - sin2)}, width};
+  const double cos_t = std::sqrt(std::max(0.0, 1 - glm::dot(bent, bent)));
+  if (cos_t == 0.0) return {{bent.x, bent.y, -1e-3}, c.material.alpha};
+  // Tilting the facet by one radian turns the refracted direction by this much.
+  const double turn = std::abs(1 - c.wo.z / (c.eta * cos_t));
+  return {{bent.x, bent.y, -cos_t}, c.material.alpha * std::min(1.0, turn)};
 }
 
 }  // namespace pellucid::test

@@ -24,10 +24,11 @@ struct BsdfCase {
 /// Every kind with a density, several widths and indices, cos(wo) from 1 to 1e-3.
 std::vector<BsdfCase> density_cases();
 
-/// Relative error that float may make in the density of a microfacet case although sampling and
-/// evaluation agree: both know the half vector to a few roundoffs over its conditioning (1 for
-/// reflection, |eta - 1| for refraction), and D varies by 4/alpha per radian.
-double half_vector_error(const BsdfCase& c);
+/// Relative error that float may make in the density of a microfacet case for wi although sampling
+/// and evaluation agree: both know the half vector to a few roundoffs over the length of wo + wi
+/// (or wo + eta wi), D varies by 4/alpha per radian, the transmittance by 1/cos_t^2 and the
+/// projected facet by 1/cos.
+double half_vector_error(const BsdfCase& c, const glm::dvec3& wi);
 
 /// The axis and the scale around which the cells of the chi-square test gather.
 struct LobeShape {

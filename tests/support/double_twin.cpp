@@ -27,8 +27,8 @@ ReferenceScene::ReferenceScene(const PackedScene& packed) : state_(new State{pac
 ReferenceScene::~ReferenceScene() = default;
 
 ReferenceHit ReferenceScene::trace(const glm::dvec3& o, const glm::dvec3& d) const {
-  const twin::Hit hit =
-      twin::bvh_trace(&state_->data, {to_real3(o), to_real3(d), std::numeric_limits<double>::max()}, 0);
+  const twin::Hit hit = twin::bvh_trace(
+      &state_->data, {to_real3(o), to_real3(d), std::numeric_limits<double>::max()}, 0);
   return {hit.t, hit.prim};
 }
 

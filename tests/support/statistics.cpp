@@ -10,6 +10,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double least_expected = 5.0;
+constexpr int max_depth = 8;
 
 using Function2 = std::function<double(double, double)>;
 
@@ -34,7 +35,8 @@ double refine(const Function2& f, double x0, double x1, double y0, double y1, do
   const double part[4] = {gauss(f, x0, xm, y0, ym), gauss(f, xm, x1, y0, ym),
                           gauss(f, x0, xm, ym, y1), gauss(f, xm, x1, ym, y1)};
   const double fine = part[0] + part[1] + part[2] + part[3];
-  if (depth == 0 || std::abs(fine - coarse) <= tolerance) return fine;
+  // The first level is always refined: coarse points may all miss a narrow feature.
+  if (depth == 0 || (depth < max_depth && std::abs(fine - coarse) <= tolerance)) return fine;
   const double t = 0.5 * tolerance;
   return refine(f, x0, xm, y0, ym, part[0], t, depth - 1) +
          refine(f, xm, x1, y0, ym, part[1], t, depth - 1) +
@@ -89,7 +91,8 @@ std::string ChiSquare::describe() const {
 ChiSquare chi_square(const std::vector<double>& observed, const std::vector<double>& expected) {
   std::vector<size_t> order(expected.size());
   std::iota(order.begin(), order.end(), size_t{0});
-  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return expected[a] < expected[b]; });
+  std::sort(order.begin(), order.end(),
+            [&](size_t a, size_t b) { return expected[a] < expected[b]; });
   ChiSquare result;
   double pooled_observed = 0.0, pooled_expected = 0.0;
   int cells = 0;
@@ -127,9 +130,8 @@ double z_test(const Moments& m, double expected, double slack) {
   return se > 0.0 ? std::erfc(difference / se / std::sqrt(2.0)) : 0.0;
 }
 
-double integrate(const Function2& f, double x0, double x1, double y0, double y1,
-                 double tolerance) {
-  constexpr int depth = 7;
+double integrate(const Function2& f, double x0, double x1, double y0, double y1, double tolerance) {
+  constexpr int depth = max_depth;
   return refine(f, x0, x1, y0, y1, gauss(f, x0, x1, y0, y1), tolerance, depth);
 }
 

@@ -45,34 +45,72 @@ struct Pair {
 
 constexpr uint dim = DIM_BSDF(0);
 const Pair pairs[] = {
-    {"path, path + 1", [](uint i) { return rng4({2 * i, 0, 1}, dim); },
-     [](uint i) { return rng4({2 * i + 1, 0, 1}, dim); }},
-    {"path, path + 512", [](uint i) { return rng4({i, 0, 1}, dim); },
-     [](uint i) { return rng4({i + 512, 0, 1}, dim); }},
-    {"iteration, iteration + 1", [](uint i) { return rng4({7, 2 * i, 1}, dim); },
-     [](uint i) { return rng4({7, 2 * i + 1, 1}, dim); }},
-    {"iteration along many paths", [](uint i) { return rng4({i, 0, 1}, dim); },
-     [](uint i) { return rng4({i, 1, 1}, dim); }},
-    {"dimension, dimension + 1", [](uint i) { return rng4({i, 3, 1}, DIM_BSDF(0)); },
-     [](uint i) { return rng4({i, 3, 1}, DIM_LIGHT(0)); }},
-    {"bounce, bounce + 1", [](uint i) { return rng4({i, 3, 1}, DIM_BSDF(4)); },
-     [](uint i) { return rng4({i, 3, 1}, DIM_BSDF(5)); }},
-    {"seed, seed + 1", [](uint i) { return rng4({i, 0, 1}, dim); },
-     [](uint i) { return rng4({i, 0, 2}, dim); }},
-    {"path and iteration exchanged", [](uint i) { return rng4({i, i + 1, 1}, dim); },
-     [](uint i) { return rng4({i + 1, i, 1}, dim); }},
+    {"path, path + 1",
+     [](uint i) {
+       return rng4({2 * i, 0, 1}, dim);
+     },
+     [](uint i) {
+       return rng4({2 * i + 1, 0, 1}, dim);
+     }},
+    {"path, path + 512",
+     [](uint i) {
+       return rng4({i, 0, 1}, dim);
+     },
+     [](uint i) {
+       return rng4({i + 512, 0, 1}, dim);
+     }},
+    {"iteration, iteration + 1",
+     [](uint i) {
+       return rng4({7, 2 * i, 1}, dim);
+     },
+     [](uint i) {
+       return rng4({7, 2 * i + 1, 1}, dim);
+     }},
+    {"iteration along many paths",
+     [](uint i) {
+       return rng4({i, 0, 1}, dim);
+     },
+     [](uint i) {
+       return rng4({i, 1, 1}, dim);
+     }},
+    {"dimension, dimension + 1",
+     [](uint i) {
+       return rng4({i, 3, 1}, DIM_BSDF(0));
+     },
+     [](uint i) {
+       return rng4({i, 3, 1}, DIM_LIGHT(0));
+     }},
+    {"bounce, bounce + 1",
+     [](uint i) {
+       return rng4({i, 3, 1}, DIM_BSDF(4));
+     },
+     [](uint i) {
+       return rng4({i, 3, 1}, DIM_BSDF(5));
+     }},
+    {"seed, seed + 1",
+     [](uint i) {
+       return rng4({i, 0, 1}, dim);
+     },
+     [](uint i) {
+       return rng4({i, 0, 2}, dim);
+     }},
+    {"path and iteration exchanged",
+     [](uint i) {
+       return rng4({i, i + 1, 1}, dim);
+     },
+     [](uint i) {
+       return rng4({i + 1, i, 1}, dim);
+     }},
 };
 
 TEST(TwinRng, NeighbouringStreamsAreIndependent) {
   const double alpha = sidak(family_alpha, 2 * int(std::size(pairs)));
   for (const Pair& pair : pairs) {
-    const ChiSquare same = pair_test([&](uint i) {
-      return std::make_pair(pair.first(i).x, pair.second(i).x);
-    });
+    const ChiSquare same =
+        pair_test([&](uint i) { return std::make_pair(pair.first(i).x, pair.second(i).x); });
     EXPECT_TRUE(accepted(same, alpha)) << pair.name << " x-x: " << same.describe();
-    const ChiSquare cross = pair_test([&](uint i) {
-      return std::make_pair(pair.first(i).y, pair.second(i).z);
-    });
+    const ChiSquare cross =
+        pair_test([&](uint i) { return std::make_pair(pair.first(i).y, pair.second(i).z); });
     EXPECT_TRUE(accepted(cross, alpha)) << pair.name << " y-z: " << cross.describe();
   }
 }

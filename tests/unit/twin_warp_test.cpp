@@ -77,8 +77,7 @@ struct Warp {
 const Warp warps[] = {
     {"cosine hemisphere", warp_cosine_hemisphere,
      [](const glm::dvec3& w) { return w.z > 0 ? w.z / pi_d : 0.0; }},
-    {"hemisphere", warp_hemisphere,
-     [](const glm::dvec3& w) { return w.z > 0 ? 0.5 / pi_d : 0.0; }},
+    {"hemisphere", warp_hemisphere, [](const glm::dvec3& w) { return w.z > 0 ? 0.5 / pi_d : 0.0; }},
     {"sphere", warp_sphere, [](const glm::dvec3&) { return 0.25 / pi_d; }},
 };
 
