@@ -1,0 +1,96 @@
+// Closed forms and quadratures. Directions are in the frame of the surface, z along its normal.
+#include "closed_forms.h"
+
+#include <cmath>
+#include <complex>
+
+#include "support/statistics.h"
+
+namespace pellucid::test {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double quadrature_tolerance = 1e-6;  // a thousandth of what the tests resolve
+
+glm::dvec3 direction(double cos_t, double phi) {
+  const double sin_t = std::sqrt(std::max(0.0, 1 - cos_t * cos_t));
+  return {sin_t * std::cos(phi), sin_t * std::sin(phi), cos_t};
+}
+
+double ggx_distribution(const glm::dvec3& h, double alpha) {
+  if (h.z <= 0) return 0;
+  const double a2 = alpha * alpha, k = h.x * h.x / a2 + h.y * h.y / a2 + h.z * h.z;
+  return 1 / (pi * a2 * k * k);
+}
+
+double smith_lambda(const glm::dvec3& w, double alpha) {
+  const double tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
+  return 0.5 * (std::sqrt(1 + alpha * alpha * tan2) - 1);
+}
+
+}  // namespace
+
+double polygon_form_factor(const glm::dvec3& p, const glm::dvec3& n,
+                           const std::vector<glm::dvec3>& corners) {
+  glm::dvec3 sum(0.0);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const glm::dvec3 a = glm::normalize(corners[i] - p);
+    const glm::dvec3 b = glm::normalize(corners[(i + 1) % corners.size()] - p);
+    const glm::dvec3 c = glm::cross(a, b);
+    sum += c * (std::atan2(glm::length(c), glm::dot(a, b)) / glm::length(c));
+  }
+  return std::abs(glm::dot(sum, n)) / (2 * pi);
+}
+
+double fresnel(double cos_i, double from, double eta, double k) {
+  using Complex = std::complex<double>;
+  const Complex n1 = from, n2(eta, -k);
+  const Complex sin_t = n1 / n2 * std::sqrt(1 - cos_i * cos_i);
+  const Complex cos_t = std::sqrt(1.0 - sin_t * sin_t);
+  const Complex s = (n1 * cos_i - n2 * cos_t) / (n1 * cos_i + n2 * cos_t);
+  const Complex p = (n2 * cos_i - n1 * cos_t) / (n2 * cos_i + n1 * cos_t);
+  return 0.5 * (std::norm(s) + std::norm(p));
+}
+
+double pane_transmission(double degrees, double n) {
+  const double r = fresnel(std::cos(degrees * pi / 180), 1, n, 0);
+  return (1 - r) / (1 + r);
+}
+
+double ggx_reflected(double cos_o, double alpha, double near, double far, double k) {
+  const glm::dvec3 o = direction(cos_o, 0);
+  const auto integrand = [&](double cos_i, double phi) {
+    const glm::dvec3 i = direction(cos_i, phi), h = glm::normalize(i + o);
+    const double g = 1 / (1 + smith_lambda(i, alpha) + smith_lambda(o, alpha));
+    return fresnel(glm::dot(o, h), near, far, k) * ggx_distribution(h, alpha) * g / (4 * o.z);
+  };
+  return integrate(integrand, 0, 1, 0, 2 * pi, quadrature_tolerance);
+}
+
+double ggx_transmitted(double cos_o, double alpha, double near, double far) {
+  const glm::dvec3 o = direction(cos_o, 0);
+  const auto integrand = [&](double cos_i, double phi) {
+    const glm::dvec3 i = direction(-cos_i, phi);
+    glm::dvec3 h = glm::normalize(near * o + far * i);
+    if (h.z < 0) h = -h;
+    const double ih = glm::dot(i, h), oh = glm::dot(o, h);
+    if (oh <= 0 || ih >= 0) return 0.0;
+    const double g = 1 / (1 + smith_lambda(i, alpha) + smith_lambda(o, alpha));
+    const double root = far * ih + near * oh;
+    const double passed = 1 - fresnel(oh, near, far, 0);
+    return std::abs(ih * oh) / o.z * near * near * passed * g * ggx_distribution(h, alpha) /
+           (root * root);
+  };
+  return integrate(integrand, 0, 1, 0, 2 * pi, quadrature_tolerance);
+}
+
+double phong_albedo(double cos_o, double exponent) {
+  const glm::dvec3 mirror = direction(cos_o, pi);
+  const auto integrand = [&](double cos_i, double phi) {
+    const double c = std::max(0.0, glm::dot(direction(cos_i, phi), mirror));
+    return (exponent + 2) / (2 * pi) * std::pow(c, exponent) * cos_i;
+  };
+  return integrate(integrand, 0, 1, 0, 2 * pi, quadrature_tolerance);
+}
+
+}  // namespace pellucid::test

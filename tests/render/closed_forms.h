@@ -1,0 +1,31 @@
+// Values known exactly, in double and written apart from the kernels.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace pellucid::test {
+
+/// Form factor of a point with normal n to a polygon wholly above its horizon: L = rho Le F
+/// [Lambert 1760].
+double polygon_form_factor(const glm::dvec3& p, const glm::dvec3& n,
+                           const std::vector<glm::dvec3>& corners);
+
+/// Fresnel reflectance, mean of both polarisations, by complex refractive indices: from index
+/// `from` at cosine `cos_i` into `eta - i k`.
+double fresnel(double cos_i, double from, double eta, double k);
+
+/// A lossless pane of index n with all echoes: (1 - R) / (1 + R).
+double pane_transmission(double degrees, double n);
+
+/// What a GGX interface of width alpha shows under a uniform sky of radiance 1 on both sides, seen
+/// from index `near` at cosine `cos_o` into index `far` (k: its extinction): single scattering with
+/// correlated Smith masking, by quadrature [Walter07; Heitz14]. Transmitted radiance scales by
+/// (near / far)^2.
+double ggx_reflected(double cos_o, double alpha, double near, double far, double k);
+double ggx_transmitted(double cos_o, double alpha, double near, double far);
+
+/// Albedo of the modified Phong lobe (n + 2) / (2 pi) cos^n seen at cosine `cos_o`.
+double phong_albedo(double cos_o, double exponent);
+
+}  // namespace pellucid::test

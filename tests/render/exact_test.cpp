@@ -1,0 +1,158 @@
+// Exact invariances: the film must have the same bits (numerics.md A3, A5). No tolerance to argue
+// about.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render_harness.h"
+
+namespace pellucid::test {
+namespace {
+
+const char* const methods[] = {"naive", "nee", "path", "reference"};
+constexpr Sampling short_run{24, 7, {}, MIS_BALANCE};
+
+const Scene& everything() {
+  static const Scene scene = scene_named("everything");
+  return scene;
+}
+
+Build build_of(const char* method) {
+  Build b;
+  b.method = method;
+  b.width = b.height = 24;
+  return b;
+}
+
+std::vector<FilmPixel> film_of(const Scene& scene, const Build& build) {
+  return session_render(scene, build, short_run).film;
+}
+
+std::size_t different_pixels(const std::vector<FilmPixel>& a, const std::vector<FilmPixel>& b) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) n += !same_film({a[i]}, {b[i]});
+  return n;
+}
+
+/// All lengths times 2^k: rounding commutes with powers of two. Intensities of points go with the
+/// square of a length; radiance and irradiance stay.
+Scene scaled(Scene scene, int k) {
+  const double f = std::ldexp(1.0, k);
+  scene.camera.origin *= f;
+  for (Shape& shape : scene.shapes) {
+    if (Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
+      for (glm::vec3& p : mesh->positions) p *= float(f);
+    } else if (Sphere* sphere = std::get_if<Sphere>(&shape.geometry)) {
+      sphere->center *= f;
+      sphere->radius *= f;
+    } else {
+      Disk& disk = std::get<Disk>(shape.geometry);
+      disk.center *= f;
+      disk.radius *= f;
+    }
+  }
+  for (Light& light : scene.lights)
+    if (PointLight* point = std::get_if<PointLight>(&light)) {
+      point->position *= f;
+      point->intensity *= f * f;
+    }
+  return scene;
+}
+
+TEST(Exact, twice_the_same) {
+  for (const char* m : methods) {
+    const auto film = film_of(everything(), build_of(m));
+    EXPECT_TRUE(same_film(film, film_of(everything(), build_of(m)))) << m;
+    Sampling other = short_run;
+    other.seed = 8;
+    EXPECT_FALSE(same_film(film, session_render(everything(), build_of(m), other).film))
+        << m << ": the seed must matter";
+  }
+}
+
+TEST(Exact, work_group_size) {
+  for (const char* m : methods) {
+    const auto film = film_of(everything(), build_of(m));
+    for (std::size_t group : {1, 8}) {
+      Build b = build_of(m);
+      b.group = group;
+      EXPECT_TRUE(same_film(film, film_of(everything(), b))) << m << ", groups of " << group;
+    }
+  }
+}
+
+TEST(Exact, features_auto_or_all) {
+  for (const char* m : methods) {
+    const auto film = film_of(everything(), build_of(m));
+    Build b = build_of(m);
+    b.specialised = true;
+    EXPECT_TRUE(same_film(film, film_of(everything(), b))) << m;
+  }
+  for (const char* name :
+       {"rectangle-light", "sphere-light", "white-furnace-glass", "equal-metal"}) {
+    const Scene scene = scene_named(name);
+    Build b = build_of("path");
+    const auto film = film_of(scene, b);
+    b.specialised = true;
+    EXPECT_TRUE(same_film(film, film_of(scene, b))) << name;
+  }
+}
+
+TEST(Exact, compare_instructions_of_the_processor) {
+  for (int lanes : {4, 8, 16}) {
+    Build b = build_of("path");
+    b.simd_width = lanes;
+    const auto film = film_of(everything(), b);
+    b.simd_builtins = false;
+    EXPECT_TRUE(same_film(film, film_of(everything(), b))) << lanes << " lanes";
+  }
+}
+
+// Another width is another tree, but a triangle's hit is computed alike in any lane and ties go to
+// the lowest id, so the closest hits, and with them all bits, are the same.
+TEST(Exact, width_of_the_tree) {
+  for (const char* m : methods) {
+    Build b = build_of(m);
+    b.simd_width = 4;
+    const auto film = film_of(everything(), b);
+    for (int lanes : {8, 16}) {
+      b.simd_width = lanes;
+      const auto wider = film_of(everything(), b);
+      EXPECT_TRUE(same_film(film, wider))
+          << m << ", " << lanes << " lanes: " << different_pixels(film, wider) << " pixels";
+    }
+  }
+}
+
+TEST(Exact, scale_of_the_world) {
+  for (const char* m : methods) {
+    const auto film = film_of(everything(), build_of(m));
+    for (int k : {-20, -8, 8, 20}) {
+      const auto other = film_of(scaled(everything(), k), build_of(m));
+      EXPECT_TRUE(same_film(film, other))
+          << m << ", lengths times 2^" << k << ": " << different_pixels(film, other) << " pixels";
+    }
+  }
+}
+
+// What a render has after n iterations is what a render of n iterations gives, whatever the
+// batches.
+TEST(Exact, shorter_render_is_the_beginning_of_a_longer_one) {
+  std::vector<std::vector<FilmPixel>> stages;
+  RenderHooks hooks;
+  hooks.wants_image = [] { return true; };
+  hooks.image = [&](const std::vector<FilmPixel>& film) { stages.push_back(film); };
+  Sampling long_run = short_run;
+  long_run.spp = 2000;
+  session_render(everything(), build_of("path"), long_run, hooks);
+  ASSERT_GE(stages.size(), 2u);
+  for (const auto& stage : stages) {
+    Sampling run = short_run;
+    run.spp = stage.at(0).count.x;
+    EXPECT_TRUE(same_film(stage, session_render(everything(), build_of("path"), run).film))
+        << run.spp << " iterations";
+  }
+}
+
+}  // namespace
+}  // namespace pellucid::test

@@ -1,0 +1,19 @@
+# Render tests: closed forms, equality of methods, exact invariances, goldens. Included by
+# tests/CMakeLists.txt; PELLUCID_TIER=full narrows the verdicts from +-1.5 % to +-0.5 %.
+set(render_dir ${CMAKE_SOURCE_DIR}/tests/render)
+set(render_sources ${CMAKE_SOURCE_DIR}/tests/support/statistics.cpp)
+foreach(name render_harness closed_forms closed_form_cases closed_form_test equality equality_test
+             exact_test rigid_test golden_test)
+  list(APPEND render_sources ${render_dir}/${name}.cpp)
+endforeach()
+pellucid_gtest(render_tests render
+  SOURCES ${render_sources}
+  DEPS pellucid_integrators pellucid_scene pellucid_image fmt::fmt)
+target_include_directories(render_tests PRIVATE ${render_dir})
+
+pellucid_script_test(threads render ${render_dir}/threads_test.py $<TARGET_FILE:pellucid>)
+
+add_test(NAME slow.render_full
+         COMMAND render_tests --gtest_filter=*ClosedForm*:*Equality*:*Rigid*:*Golden*)
+set_tests_properties(slow.render_full PROPERTIES LABELS slow TIMEOUT 3600
+                     ENVIRONMENT PELLUCID_TIER=full)

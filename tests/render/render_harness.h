@@ -1,0 +1,94 @@
+// Renders through the library, without the command line: a scene by name, a method, pictures with
+// means and variances. Every render asserts that the device counted no error.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cl/device.h"
+#include "render/session.h"
+#include "scene/scene.h"
+
+namespace pellucid::test {
+
+/// Half width of the verdict: +-1.5 % in CI, +-0.5 % where PELLUCID_TIER=full (accuracy.md 4).
+double tier_tolerance();
+/// Samples grow with 1/tolerance^2.
+double tier_effort();
+
+/// The device under test; tests fail, never skip, where there is none.
+const Device& test_device();
+
+/// By name from tests/render/scenes or the shipped ones.
+Scene scene_named(const std::string& name);
+
+/// What a kernel is built from and a scene is packed for.
+struct Build {
+  std::string method = "path";
+  int width = 32, height = 32;
+  bool specialised = false;  ///< false: kernels hold all effects, so that tests share programs
+  std::size_t group = 64;
+  bool simd_builtins = true;
+  int simd_width = 0;  ///< 0: what the device prefers
+};
+
+/// Mean and variance of that mean.
+struct Estimate {
+  double mean = 0, variance = 0;
+  double error() const;
+};
+
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<FilmPixel> film;
+  std::vector<std::array<Estimate, 3>> pixels;  ///< out of film_image()
+
+  Picture(std::vector<FilmPixel> accumulated, int w, int h);
+  Estimate image(int channel) const;
+  /// (sum x)^2 / sum x^2 over the samples of a block of pixels: how many of them matter.
+  double effective_samples(int channel, int x0, int y0, int block) const;
+  double block_mean(int channel, int x0, int y0, int block) const;
+};
+
+/// The same bits in every accumulator of every pixel.
+bool same_film(const std::vector<FilmPixel>& a, const std::vector<FilmPixel>& b);
+
+struct Sampling {
+  std::uint64_t spp = 64, seed = 1;
+  std::optional<uint> max_depth;
+  uint mis = MIS_BALANCE;
+};
+
+/// A method ready on a scene: kernels are built once, then any number of pictures are made.
+class Renderer {
+ public:
+  Renderer(const Scene& scene, const Build& build);
+  Picture render(const Sampling& run);
+  /// spp for which the image's mean is known to `relative` (standard error) by a pilot of its own
+  /// seed; `most` bounds the answer, and a render that then is too noisy fails as inconclusive.
+  std::uint64_t spp_for(const Sampling& run, double relative, std::uint64_t most);
+  const PackedScene& packed() const { return packed_; }
+
+ private:
+  void check_counters();
+
+  Build build_;
+  PackedScene packed_;
+  Plan plan_;
+  std::vector<FilmPixel> before_;  ///< the plan's film goes on: a picture is what a run adds to it
+};
+
+/// The same through a Session, as the program renders.
+Picture session_render(const Scene& scene, const Build& build, const Sampling& run,
+                       const RenderHooks& hooks = {});
+
+/// Verdict on a value known exactly: "" if the mean lies within 4.5 standard errors (plus `slack`,
+/// relative, for what is not noise) and that interval inside +-tier_tolerance() of `expected`; else
+/// the reason. 4.5 sigma are 7e-6, two-sided: with fixed seeds this only says how unlucky a seed
+/// may be.
+std::string judge(const Estimate& estimate, double expected, double slack);
+
+}  // namespace pellucid::test

@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""The same image file, byte for byte, from one thread and from two.
+
+Usage: threads_test.py path/to/pellucid   (exit 0: equal)
+Threads of PoCL are set by the environment, under the names of its old and its new versions.
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+SCENE = pathlib.Path(__file__).resolve().parent / "scenes" / "everything.json"
+
+
+def render(pellucid, method, threads, folder):
+    name = pathlib.Path(folder) / f"{method}-{threads}.exr"
+    environment = dict(os.environ, POCL_MAX_PTHREAD_COUNT=str(threads),
+                       POCL_CPU_MAX_CU_COUNT=str(threads))
+    subprocess.run([pellucid, "render", SCENE, "-i", method, "--size", "32x24", "--spp", "32",
+                    "--features", "all", "--aov", "variance,samples", "--strict", "--deterministic",
+                    "--quiet", "-o", name], check=True, env=environment,
+                   stdout=subprocess.DEVNULL, timeout=120)
+    return name.read_bytes()
+
+
+def main():
+    pellucid = os.path.abspath(sys.argv[1])
+    different = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for method in ("naive", "nee", "path", "reference"):
+            images = [render(pellucid, method, threads, folder) for threads in (1, 2)]
+            if images[0] != images[1]:
+                different += 1
+                print(f"FAILED: {method} gives another file with 2 threads than with 1")
+    return 1 if different else 0
+
+
+sys.exit(main())
