@@ -6,11 +6,8 @@
 
 /// Ray through film position (x, y) in pixels from the top left.
 INLINE Ray camera_ray(Camera camera, real x, real y) {
-  Ray ray;
-  ray.o = load3(camera.origin);
-  ray.d = normalize3(load3(camera.corner) + load3(camera.dx) * x + load3(camera.dy) * y);
-  ray.t_max = REAL_MAX;
-  return ray;
+  real3 d = load3(camera.corner) + load3(camera.dx) * x + load3(camera.dy) * y;
+  return make_ray(load3(camera.origin), normalize3(d), REAL_MAX);
 }
 
 #endif

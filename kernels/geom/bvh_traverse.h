@@ -65,6 +65,7 @@ INLINE void leaf_quadric(PRIVATE const SceneData* scene, uint index, Ray ray, PR
   ray.t_max = hit->t;
   real t = quadric_hit(scene->quadrics[index], ray);
   uint prim = scene->info.triangle_count + index;
+  if (prim + 1u == ray.aim) return;
   if (t > REAL(0.0) && (t < hit->t || prim < hit->prim)) {
     hit->t = t;
     hit->b1 = hit->b2 = REAL(0.0);

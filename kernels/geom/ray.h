@@ -10,7 +10,17 @@ typedef struct Ray {
   real3 o;     // world units
   real3 d;     // unit
   real t_max;  // hits lie in (0, t_max]
+  uint aim;    // 1 + id of the sphere that a shadow ray ends on and that cannot block it; 0: none
 } Ray;
+
+INLINE Ray make_ray(real3 o, real3 d, real t_max) {
+  Ray ray;
+  ray.o = o;
+  ray.d = d;
+  ray.t_max = t_max;
+  ray.aim = 0;
+  return ray;
+}
 
 typedef struct Hit {
   real t;       // distance along the ray

@@ -14,6 +14,7 @@ typedef struct LightSample {
   real3 target;     // end of the shadow ray (offset from the light's surface), if not at infinity
   real3 radiance;   // radiance; for delta lights irradiance on a plane facing the light
   real pdf_w;       // [1/sr] pick included; delta lights: the probability of the pick
+  uint aim;         // Ray.aim of the shadow ray
   int delta;        // point or directional: cannot be found by chance
   int at_infinity;  // shadow ray goes on without end
 } LightSample;
@@ -138,6 +139,8 @@ INLINE void sample_sphere_light(PRIVATE const SceneData* scene, Light light, rea
     Frame frame = frame_from_normal(normalize3(p - load3(q.center_radius)));
     n = normalize3(to_world(frame, REAL3(sin_alpha * phi.c, sin_alpha * phi.s, cos_alpha)));
     out->pdf_w = (real)light.prob_pick / (TWO_PI * one_minus_cos);
+    // Nothing of a sphere lies before the point seen; at the rim rounding may say otherwise.
+    out->aim = light.prim + 1u;
   } else {
     n = warp_sphere(u, v);
   }
@@ -165,6 +168,7 @@ INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, Random4
   out.target = p;
   out.radiance = REAL3(0.0f, 0.0f, 0.0f);
   out.pdf_w = REAL(0.0);
+  out.aim = 0;
   out.delta = out.at_infinity = 0;
   Light light = scene->lights[light_pick(scene, u.x, u.w)];
   switch (light.kind) {

@@ -66,6 +66,7 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
   shadow.o = spawn_origin(v->surface.p, v->surface.ng, v->surface.offset, light.wi);
   shadow.d = light.wi;
   shadow.t_max = REAL_MAX;
+  shadow.aim = light.aim;
   if (!light.at_infinity) {
     real3 d = light.target - shadow.o;
     real dist2 = dot3(d, d);

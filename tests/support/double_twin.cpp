@@ -27,13 +27,15 @@ ReferenceScene::ReferenceScene(const PackedScene& packed) : state_(new State{pac
 ReferenceScene::~ReferenceScene() = default;
 
 ReferenceHit ReferenceScene::trace(const glm::dvec3& o, const glm::dvec3& d) const {
-  const twin::Hit hit = twin::bvh_trace(
-      &state_->data, {to_real3(o), to_real3(d), std::numeric_limits<double>::max()}, 0);
+  const twin::Ray ray =
+      twin::make_ray(to_real3(o), to_real3(d), std::numeric_limits<double>::max());
+  const twin::Hit hit = twin::bvh_trace(&state_->data, ray, 0);
   return {hit.t, hit.prim};
 }
 
 double ReferenceScene::light_pdf(const glm::dvec3& p, const glm::dvec3& w) const {
-  const twin::Ray ray{to_real3(p), to_real3(w), std::numeric_limits<double>::max()};
+  const twin::Ray ray =
+      twin::make_ray(to_real3(p), to_real3(w), std::numeric_limits<double>::max());
   const twin::Hit hit = twin::bvh_trace(&state_->data, ray, 0);
   if (hit.prim == NONE)
     return state_->data.info.environment == NONE ? 0.0 : twin::light_pdf_environment(&state_->data);

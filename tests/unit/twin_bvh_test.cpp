@@ -17,7 +17,7 @@ struct Line {
 };
 
 Ray to_ray(const Line& line) {
-  return {to_real3(line.o), to_real3(line.d), REAL_MAX};
+  return make_ray(to_real3(line.o), to_real3(line.d), REAL_MAX);
 }
 /// What the twin really got: rounded to real, so that the judge sees the same ray.
 Line rounded(const Line& line) {
@@ -213,7 +213,7 @@ TEST(TwinBvh, TrianglesWithoutAreaAreHarmless) {
 
 TEST(TwinBvh, NothingToHit) {
   const TwinScene twin(empty_scene());
-  EXPECT_EQ(twin.trace({REAL3(0, 0, 0), REAL3(0, 0, 1), REAL_MAX}).prim, NONE);
+  EXPECT_EQ(twin.trace(make_ray(REAL3(0, 0, 0), REAL3(0, 0, 1), REAL_MAX)).prim, NONE);
 }
 
 TEST(TwinBvh, DifferenceToTheDoubleTwin) {

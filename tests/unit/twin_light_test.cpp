@@ -161,7 +161,7 @@ TEST(TwinLight, DensityOfSampleIsDensityOfChance) {
     constexpr int n = 200000;
     for (int i = 0; i < n; ++i) {
       const LightSample s = sample(twin, c.p, random);
-      const Ray ray{to_real3(c.p), s.wi, REAL_MAX};
+      const Ray ray = make_ray(to_real3(c.p), s.wi, REAL_MAX);
       const Hit hit = twin.trace(ray);
       real density, cosine = 1;
       if (s.at_infinity) {

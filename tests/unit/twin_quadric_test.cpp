@@ -20,7 +20,7 @@ TEST(TwinQuadric, SphereFromAfar) {
       const glm::dvec3 view = random.direction();
       const real3 o = to_real3(distance * view);
       const real3 target = to_real3(0.9 * random.direction());
-      const Ray ray{o, normalize3(target - o), REAL_MAX};
+      const Ray ray = make_ray(o, normalize3(target - o), REAL_MAX);
       const real t = sphere_hit(sphere, ray);
       // From 1e6 radii a float direction is no better than a twentieth of the radius.
       if (is_float && distance > 1e5 && t < 0) continue;
@@ -50,7 +50,7 @@ TEST(TwinQuadric, SilhouetteFromAfar) {
       for (int k = 0; k < n; ++k) {
         const glm::dvec3 o =
             (3 * (i + 0.5) / n - 1.5) * s + (3 * (k + 0.5) / n - 1.5) * t - distance * m;
-        hits += sphere_hit(sphere, {to_real3(o), frame.n, REAL_MAX}) > 0;
+        hits += sphere_hit(sphere, make_ray(to_real3(o), frame.n, REAL_MAX)) > 0;
       }
     // 0.1 %, and at 1e6 half an ulp of the origin (1/32) that moves rays in and out.
     const double tolerance = is_float && distance > 1e5 ? 0.01 : 1e-3;
@@ -63,7 +63,7 @@ TEST(TwinQuadric, SphereFromInside) {
   const F4 sphere{1, 2, 3, 2};
   for (int i = 0; i < 100000; ++i) {
     const glm::dvec3 o = glm::dvec3(1, 2, 3) + 1.99 * random.uniform() * random.direction();
-    const Ray ray{to_real3(o), to_real3(random.direction()), REAL_MAX};
+    const Ray ray = make_ray(to_real3(o), to_real3(random.direction()), REAL_MAX);
     const real t = sphere_hit(sphere, ray);
     ASSERT_GT(double(t), 0.0);
     const glm::dvec3 p = to_dvec3(ray.o) + to_dvec3(ray.d) * double(t);
@@ -73,12 +73,12 @@ TEST(TwinQuadric, SphereFromInside) {
 
 TEST(TwinQuadric, SphereRespectsTheEndOfTheRay) {
   const F4 sphere{0, 0, 0, 1};
-  const Ray ray{REAL3(0, 0, -3), REAL3(0, 0, 1), REAL_MAX};
+  const Ray ray = make_ray(REAL3(0, 0, -3), REAL3(0, 0, 1), REAL_MAX);
   EXPECT_EQ(double(sphere_hit(sphere, ray)), 2.0);
-  EXPECT_EQ(double(sphere_hit(sphere, {ray.o, ray.d, 2})), 2.0);
-  EXPECT_LT(double(sphere_hit(sphere, {ray.o, ray.d, real(1.999)})), 0.0);
-  EXPECT_LT(double(sphere_hit(sphere, {ray.o, -ray.d, REAL_MAX})), 0.0);
-  EXPECT_LT(double(sphere_hit(sphere, {REAL3(2, 0, -3), ray.d, REAL_MAX})), 0.0);
+  EXPECT_EQ(double(sphere_hit(sphere, make_ray(ray.o, ray.d, 2))), 2.0);
+  EXPECT_LT(double(sphere_hit(sphere, make_ray(ray.o, ray.d, real(1.999)))), 0.0);
+  EXPECT_LT(double(sphere_hit(sphere, make_ray(ray.o, -ray.d, REAL_MAX))), 0.0);
+  EXPECT_LT(double(sphere_hit(sphere, make_ray(REAL3(2, 0, -3), ray.d, REAL_MAX))), 0.0);
 }
 
 TEST(TwinQuadric, DiskShowsItsEllipse) {
@@ -91,13 +91,14 @@ TEST(TwinQuadric, DiskShowsItsEllipse) {
     for (int i = 0; i < n; ++i)
       for (int k = 0; k < n; ++k) {
         const real3 o = REAL3(3 * (i + 0.5) / n - 1.5, 3 * (k + 0.5) / n - 1.5, 50);
-        const real t = disk_hit(center_radius, normal, {o, REAL3(0, 0, -1), REAL_MAX});
+        const real t = disk_hit(center_radius, normal, make_ray(o, REAL3(0, 0, -1), REAL_MAX));
         hits += t > 0;
       }
     EXPECT_NEAR(9.0 * hits / (double(n) * n), pi_d * cosine, 0.003) << cosine;  // border cells
   }
-  EXPECT_LT(
-      double(disk_hit({0, 0, 0, 1}, {0, 0, 1, 0}, {REAL3(0, 0, 0), REAL3(1, 0, 0), REAL_MAX})), 0.0)
+  EXPECT_LT(double(disk_hit({0, 0, 0, 1}, {0, 0, 1, 0},
+                            make_ray(REAL3(0, 0, 0), REAL3(1, 0, 0), REAL_MAX))),
+            0.0)
       << "a ray in its plane";
 }
 
@@ -114,7 +115,7 @@ TEST(TwinQuadric, DiskPointLiesOnItsPlane) {
               0};
     const real3 o = to_real3(c + random.in_box(20));
     const real3 target = to_real3(c);
-    const Ray ray{o, normalize3(target - o), REAL_MAX};
+    const Ray ray = make_ray(o, normalize3(target - o), REAL_MAX);
     const real t = disk_hit(q.center_radius, q.normal, ray);
     if (t < 0) continue;
     Surface s;

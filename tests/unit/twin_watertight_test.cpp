@@ -31,7 +31,7 @@ int misses(double distance, int kind) {
     if (kind == 1) target = v0 + (v1 - v0) * a;
     if (kind == 2) target = v0 + ((v1 - v0) * (1 - b) + (v2 - v0) * b) * a;
     const real3 o = to_real3(center + random.in_box(0.2));
-    const Hit hit = twin.trace({o, normalize3(target - o), REAL_MAX});
+    const Hit hit = twin.trace(make_ray(o, normalize3(target - o), REAL_MAX));
     missed += hit.prim == NONE;
   }
   EXPECT_EQ(twin.diag[DIAG_stack_overflow], 0u);
@@ -70,7 +70,7 @@ TEST(TwinWatertight, RayThroughVertexOfARegularGrid) {
           const real3 target = REAL3(0.5 * x, 0.5 * y, 0);
           const real3 d = normalize3(REAL3(slant, slant, 4 * dz));
           const real3 o = target - REAL3(slant, slant, 4 * dz);
-          EXPECT_NE(twin.trace({o, d, REAL_MAX}).prim, NONE) << x << " " << y;
+          EXPECT_NE(twin.trace(make_ray(o, d, REAL_MAX)).prim, NONE) << x << " " << y;
         }
 }
 
@@ -99,7 +99,7 @@ Spawned spawn_from(const TwinScene& twin, Random& random, int hits, int per_hit,
     const real3 o = target + to_real3(random.direction()) * real(half * random.uniform(1e-3, 1));
     const real3 away = target - o;
     if (is_black(away)) continue;
-    const Ray ray{o, normalize3(away), REAL_MAX};
+    const Ray ray = make_ray(o, normalize3(away), REAL_MAX);
     const Hit hit = twin.trace(ray);
     if (hit.prim == NONE) continue;
     const Surface s = surface_at(&twin.data, ray, hit);
@@ -112,7 +112,7 @@ Spawned spawn_from(const TwinScene& twin, Random& random, int hits, int per_hit,
       if (dot3(d, s.ng) == 0) continue;
       ++result.rays;
       result.again +=
-          twin.trace({spawn_origin(s.p, s.ng, s.offset, d), d, REAL_MAX}).prim == hit.prim;
+          twin.trace(make_ray(spawn_origin(s.p, s.ng, s.offset, d), d, REAL_MAX)).prim == hit.prim;
     }
   }
   return result;
@@ -146,12 +146,12 @@ TEST(TwinSpawn, SpheresAreHitAgainOnlyAcross) {
       for (int i = 0; i < 30000; ++i) {
         const real3 o = to_real3(c + radius * random.uniform(1.1, 10) * random.direction());
         const real3 target = to_real3(c + radius * 0.99 * random.direction());
-        const Ray ray{o, normalize3(target - o), REAL_MAX};
+        const Ray ray = make_ray(o, normalize3(target - o), REAL_MAX);
         const Hit hit = twin.trace(ray);
         if (hit.prim == NONE) continue;
         const Surface s = surface_at(&twin.data, ray, hit);
         const real3 d = to_real3(random.direction());
-        const Hit next = twin.trace({spawn_origin(s.p, s.ng, s.offset, d), d, REAL_MAX});
+        const Hit next = twin.trace(make_ray(spawn_origin(s.p, s.ng, s.offset, d), d, REAL_MAX));
         const double cosine = double(dot3(d, s.ng));
         ++rays;
         if (cosine > 0) {
