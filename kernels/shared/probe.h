@@ -2,20 +2,20 @@
 #ifndef PELLUCID_SHARED_PROBE_H
 #define PELLUCID_SHARED_PROBE_H
 
+// clang-format off
 #define LAYOUT_STRUCTS(X) \
   X(Triangle) X(Quadric) X(Shape) X(Material) X(Light) X(SceneInfo) X(Camera) X(Launch) X(FilmPixel)
 
-#define LAYOUT_FIELDS(X)                                                                 \
-  X(Triangle, shape)                                                                     \
-  X(Quadric, normal)                                                                     \
-  X(Quadric, kind)                                                                       \
-  X(Quadric, shape)                                                                      \
-  X(Shape, first_light)                                                                  \
-  X(Material, survive) X(Material, reflectance) X(Material, eta_specular) X(Material, k) \
-      X(Light, alias) X(Light, value) X(Light, position) X(SceneInfo, center_radius)     \
-          X(SceneInfo, root) X(SceneInfo, environment) X(Camera, corner) X(Camera, dx)   \
-              X(Camera, dy) X(Camera, forward) X(Launch, seed) X(Launch, max_depth)      \
-                  X(Launch, splat_scale) X(FilmPixel, sum_low) X(FilmPixel, square)      \
-                      X(FilmPixel, square_low) X(FilmPixel, count)
+#define LAYOUT_FIELDS(X)                                                                  \
+  X(Triangle, shape)                                                                      \
+  X(Quadric, normal) X(Quadric, kind) X(Quadric, shape)                                   \
+  X(Shape, first_light)                                                                   \
+  X(Material, survive) X(Material, reflectance) X(Material, eta_specular) X(Material, k)  \
+  X(Light, alias) X(Light, value) X(Light, position)                                      \
+  X(SceneInfo, center_radius) X(SceneInfo, root) X(SceneInfo, environment)                \
+  X(Camera, corner) X(Camera, dx) X(Camera, dy) X(Camera, forward)                        \
+  X(Launch, seed) X(Launch, max_depth) X(Launch, splat_scale)                             \
+  X(FilmPixel, sum_low) X(FilmPixel, square) X(FilmPixel, square_low) X(FilmPixel, count)
+// clang-format on
 
 #endif

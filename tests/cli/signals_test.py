@@ -40,7 +40,7 @@ def test_stop():
     for number in (signal.SIGINT, signal.SIGTERM):
         name = f"stop{int(number)}"
         render = Terminal(*FOREVER, "-o", name + ".exr", "--stats", name + ".json")
-        render.wait_for("path on 0:0.* spp")
+        render.wait_for("path on 0:0.* pass")
         render.signal(number)
         code, seconds = render.end()
         check(code == 75 and seconds < 5, "stopped with 75", code, seconds, render.text)
@@ -71,7 +71,7 @@ def test_second_signal():
 
 def test_image_so_far():
     render = Terminal(*FOREVER, "-o", "sofar.exr")
-    render.wait_for("path on 0:0.* spp")
+    render.wait_for("path on 0:0.* pass")
     render.signal(signal.SIGUSR1)
     render.wait_for("the image so far is written")
     first = image("sofar.exr")
@@ -87,7 +87,7 @@ def test_image_so_far():
 def test_image_so_far_cannot_be_written():
     os.mkdir("gone")
     render = Terminal(*FOREVER, "-o", "gone/x.exr")
-    render.wait_for("path on 0:0.* spp")
+    render.wait_for("path on 0:0.* pass")
     os.rmdir("gone")
     render.signal(signal.SIGUSR1)
     render.wait_for("warning:.*gone/x.exr.*the render goes on", 20)
@@ -102,7 +102,7 @@ def test_full_disk():
     names = ("full.exr", "full.bmp", "full.png")
     render = Terminal(*FOREVER, "--size", "128x128", "--aov", "variance",
                       *[word for name in names for word in ("-o", name)])
-    render.wait_for("path on 0:0.* spp")
+    render.wait_for("path on 0:0.* pass")
     resource.prlimit(render.process.pid, resource.RLIMIT_FSIZE, (40000, 40000))
     render.signal(signal.SIGINT)
     check(render.end()[0] == 5, "a full disk", render.text)
@@ -116,7 +116,7 @@ def test_kill():
     for wait in (0.0, 0.005, 0.02):
         name = f"killed{wait}.exr"
         render = Terminal(*FOREVER, "--size", "512x512", "-o", name)
-        render.wait_for("path on 0:0.* spp")
+        render.wait_for("path on 0:0.* pass")
         check(not os.path.exists(name), "no file before its time")
         render.signal(signal.SIGUSR1)
         time.sleep(wait)
@@ -136,7 +136,7 @@ def test_progress_on_a_terminal():
         check(4 <= len(lines) <= 10, "redrawn at most four times a second", text)
         check(all("\n" not in line for line in lines), "on one line", text)
         last = lines[-1]
-        check(re.search(r"path on 0:0 \d\.\d+ s +\d+ %  \d+ spp  \d+\.\d+ M(paths|rays)/s", last),
+        check(re.search(r"path on 0:0 \d\.\d+ s +\d+ %  pass \d+  \d+\.\d+ Mrays/s", last),
               "name, clock, percent, speed", last)
         check(WIPE in text[text.rindex("path on 0:0"):], "it vanishes at the end", text)
         check("\n" == text[-1], "the last line is whole", text)
