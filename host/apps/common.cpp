@@ -11,11 +11,10 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "scene/scene.h"
 
 namespace pellucid {
 namespace {
-
-constexpr int LARGEST_SIDE = 65536;  // pixels; beyond it a float image of this width is a mistake
 
 [[noreturn]] void refuse(std::string_view option, const std::string& text, const char* accepted) {
   throw UsageError(fmt::format("{} takes {}, not '{}'", option, accepted, text));
@@ -47,16 +46,6 @@ double seconds_of(std::string_view unit) {
   if (unit == "h") return 3600.0;
   if (unit == "d") return 86400.0;
   return 0.0;
-}
-
-/// Power of 1024 per prefix; -1 for an unknown one.
-int power_of(std::string_view unit) {
-  if (unit.empty() || unit == "B") return 0;
-  const std::size_t power = std::string_view("KMGT").find(static_cast<char>(std::toupper(unit[0])));
-  const std::string_view tail = unit.substr(1);
-  const bool known =
-      power != std::string_view::npos && (tail.empty() || tail == "B" || tail == "iB");
-  return known ? static_cast<int>(power) + 1 : -1;
 }
 
 }  // namespace
@@ -92,31 +81,22 @@ double parse_duration(std::string_view option, const std::string& text) {
   return total;
 }
 
-std::uint64_t parse_bytes(std::string_view option, const std::string& text) {
-  constexpr double LIMIT = 9007199254740992.0;  // 2^53: up to there double counts every byte
-  std::string_view rest = text;
-  double value = 0;
-  const bool number = take_number(rest, value);
-  const int power = number ? power_of(rest) : -1;
-  const double bytes = std::ldexp(value, 10 * std::max(power, 0));
-  if (power < 0 || !(bytes >= 1 && bytes <= LIMIT))
-    refuse(option, text, "a size such as 512M or 2G");
-  return static_cast<std::uint64_t>(bytes);
-}
-
 std::pair<int, int> parse_size(std::string_view option, const std::string& text) {
-  const char* accepted = "a size in pixels such as 640x480 (each side 1 to 65536)";
+  const char* accepted =
+      "a size in pixels such as 640x480 (each side 1 to 32768, at most 2^28 pixels)";
   const auto side = [&](std::string_view part) {
     int value = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
     const bool whole = error == std::errc() && end == part.data() + part.size();
-    if (!whole || value < 1 || value > LARGEST_SIDE) refuse(option, text, accepted);
+    if (!whole || value < 1 || value > largest_side) refuse(option, text, accepted);
     return value;
   };
   const std::size_t cross = text.find('x');
   if (cross == std::string::npos) refuse(option, text, accepted);
   const std::string_view view = text;
-  return {side(view.substr(0, cross)), side(view.substr(cross + 1))};
+  const std::pair<int, int> size{side(view.substr(0, cross)), side(view.substr(cross + 1))};
+  if (std::int64_t{size.first} * size.second > largest_film) refuse(option, text, accepted);
+  return size;
 }
 
 void print_result(std::string_view text) {

@@ -18,9 +18,7 @@ double parse_number(std::string_view option, const std::string& text);
 double parse_fraction(std::string_view option, const std::string& text);
 /// Seconds from "90", "60s", "500ms", "10m", "1h", "1.5d", "1h30m"; not negative.
 double parse_duration(std::string_view option, const std::string& text);
-/// Bytes from "4096", "512K", "2G", "1.5GiB", "100MB"; all prefixes are powers of 1024; at least 1.
-std::uint64_t parse_bytes(std::string_view option, const std::string& text);
-/// Width and height in pixels from "640x480", each 1 to 65536.
+/// Width and height in pixels from "640x480", within the limits of a film.
 std::pair<int, int> parse_size(std::string_view option, const std::string& text);
 
 /// Writes to stdout at once. Throws OutputError if it is full or closed.

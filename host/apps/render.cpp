@@ -22,8 +22,6 @@
 namespace pellucid {
 namespace {
 
-constexpr std::size_t DEFAULT_GROUP = 64;  // work-items
-
 /// CLI11 would take -1 and all that is too large for 2^64 - 1.
 std::string whole_number(const std::string& text) {
   std::uint64_t value = 0;
@@ -124,7 +122,7 @@ RenderOptions RenderCommand::options(const Scene& s, const Integrator& method) c
   o.mis = parse_mis(mis, method);
   o.plan.extra_features = parse_feature_request(features);
   o.plan.kernel_dir = kernel_dir;
-  if (group) o.plan.group = group;
+  o.plan.group = group;
   return o;
 }
 
@@ -199,7 +197,6 @@ Device RenderCommand::open_device(RenderFacts& facts) const {
   RenderOptions& o = facts.options;
   const std::size_t pixels = std::size_t(o.width) * std::size_t(o.height);
   check_memory(target.info(), plan_memory({}, *facts.integrator, pixels));
-  if (!group) o.plan.group = std::min(DEFAULT_GROUP, target.info().max_group);
   return target;
 }
 
@@ -207,8 +204,7 @@ ExitCode RenderCommand::finish(const RenderFacts& facts, const std::vector<std::
                                bool complete, const CommonOptions& common) const {
   log_result(facts);
   if (!complete) log_warn("stopped early; what was rendered is written");
-  for (const std::string& what :
-       unreachable_paths(*facts.integrator, facts.session->plan().specialisation().features))
+  for (const std::string& what : unreachable_paths(*facts.integrator, facts.packed->features))
     log_info("'{}' cannot see {}", facts.integrator->name, what);
   nlohmann::json document = render_stats(facts);
   document["outputs"] = names;
@@ -249,6 +245,7 @@ ExitCode RenderCommand::run(const CommonOptions& common) const {
     Progress progress("building BVH");
     return pack_scene(s, {simd_width_for(target.info())});
   }();
+  facts.packed = &packed;
   facts.seconds.bvh = phase.seconds();
   auto session = [&] {
     Progress progress("building kernels");

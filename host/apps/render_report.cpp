@@ -57,17 +57,11 @@ std::string counters_text(const std::vector<Counter>& counters) {
 void add_evidence(const RenderFacts& f, bool deterministic, Image& image) {
   auto& meta = image.metadata;
   const Camera& camera = f.scene->camera;
-  const PackedScene lens = [&] {
-    Scene only_camera;
-    only_camera.camera = camera;
-    only_camera.settings = f.scene->settings;
-    return pack_scene(only_camera, {4});
-  }();
   const glm::dmat4 to_camera = world_to_camera(camera);
   meta["samplesPerPixel"] = int(f.film.iterations);
   meta["worldToCamera"] = row_vector_matrix(to_camera);
-  meta["worldToNDC"] =
-      row_vector_matrix(camera_to_ndc(lens.camera, f.options.width, f.options.height) * to_camera);
+  meta["worldToNDC"] = row_vector_matrix(
+      camera_to_ndc(f.packed->camera, f.options.width, f.options.height) * to_camera);
   meta["pellucid:version"] = std::string(version()) + " " + commit();
   meta["pellucid:scene"] = f.scene->name;
   meta["pellucid:sceneHash"] = f.scene_hash;

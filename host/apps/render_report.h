@@ -18,6 +18,7 @@ struct RenderSeconds {
 /// Everything the report tells about a finished (or stopped) render.
 struct RenderFacts {
   const Scene* scene = nullptr;
+  const PackedScene* packed = nullptr;
   const Integrator* integrator = nullptr;
   const DeviceInfo* device = nullptr;
   const Session* session = nullptr;

@@ -160,6 +160,7 @@ Kernel Device::build(const std::string& name, const std::string& source,
     program = cl::Program(impl_->context, source);
     program.build({impl_->device}, options.c_str());
     out.impl_->kernel = cl::Kernel(program, name.c_str());
+    out.max_group_ = out.impl_->kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(impl_->device);
   } catch (const cl::Error& e) {
     std::string log;
     try {

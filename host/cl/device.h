@@ -48,6 +48,8 @@ class Buffer {
 class Kernel {
  public:
   const std::string& name() const { return name_; }
+  /// Largest work-group that this kernel can run in on its device.
+  std::size_t max_group() const { return max_group_; }
   void set_buffer(unsigned index, const Buffer& buffer);
   void set_bytes(unsigned index, const void* data, std::size_t bytes);
   /// Parameter names as the device compiler saw them.
@@ -58,6 +60,7 @@ class Kernel {
   struct Impl;
   std::shared_ptr<Impl> impl_;
   std::string name_;
+  std::size_t max_group_ = 1;
 };
 
 /// A device with its context and one in-order queue. All failures are DeviceError with the call,

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* no_platform =
     "there is no OpenCL platform on this machine: install a driver, e.g. pocl-opencl-icd for CPUs "
-    "(see README, 'Install')";
+    "(./start.sh installs it)";
 
 std::string trimmed(std::string s) {
   while (!s.empty() && (s.back() == '\0' || s.back() == ' ')) s.pop_back();

@@ -27,6 +27,11 @@ PixelStats stats_of(const FilmPixel& p) {
   for (size_t c = 0; c < 3; ++c) {
     s.mean[c] = sum[c] / n;
     if (n >= 2) {
+      // Squares left the range of float: the variance is unknown, which is not the same as 0.
+      if (!std::isfinite(square[c]) || (square[c] == 0 && sum[c] != 0)) {
+        s.variance_of_mean[c] = std::numeric_limits<double>::quiet_NaN();
+        continue;
+      }
       // Squares were rounded to float one by one: below that noise the variance counts as 0.
       const double spread = square[c] - sum[c] * sum[c] / n;
       s.variance_of_mean[c] = std::max(0.0, spread) / ((n - 1) * n);

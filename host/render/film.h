@@ -14,7 +14,7 @@ struct FilmSummary {
   std::uint64_t rays = 0;        ///< of all pixels
   double mean = 0;               ///< of pixels and channels
   double relmse = 0;  ///< estimated from the variances: mean of var/(mean^2 + e^2), e = 1 % of the
-                      ///< mean; NaN below 2 iterations
+                      ///< mean; NaN below 2 iterations or where squares left the range of float
 };
 
 FilmSummary summarise(const std::vector<FilmPixel>& film);

@@ -1,6 +1,8 @@
 // Plan: allocation, specialisation, binding by bundle, launching.
 #include "render/plan.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "shared/buffers.h"
 
@@ -29,6 +31,16 @@ bool uses(const Integrator& integrator, Bundle bundle) {
     for (Bundle b : pass.bundles)
       if (b == bundle) return true;
   return false;
+}
+
+/// The group asked for, or the default within what the kernel can: a large kernel may allow less
+/// than its device does.
+std::size_t group_for(const Kernel& kernel, std::size_t asked) {
+  if (asked > kernel.max_group())
+    throw DeviceError("a work-group of " + std::to_string(asked) + " is more than the " +
+                      std::to_string(kernel.max_group()) + " that kernel '" + kernel.name() +
+                      "' allows on this device");
+  return asked ? asked : std::min(default_group, kernel.max_group());
 }
 
 }  // namespace
@@ -75,10 +87,6 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
       options_(options),
       specialisation_(specialise(scene, integrator, device_.info(), options)),
       pixels_(std::size_t(width) * height) {
-  if (options_.group > device_.info().max_group)
-    throw DeviceError("a work-group of " + std::to_string(options_.group) + " is more than the " +
-                      std::to_string(device_.info().max_group) + " that " + device_.info().name +
-                      " allows");
   const auto bytes = plan_memory(scene, integrator, pixels_);
 #define PELLUCID_UPLOAD(T, name, meaning) \
   buffers_[#name] = device_.create_buffer(#name, bytes.at(#name), scene.name.data());
@@ -94,6 +102,7 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
     state.pass = pass;
     state.kernel = device_.build(pass.name, files.expand("passes/" + pass.name + ".cl", prelude),
                                  options_of(specialisation_));
+    state.group = group_for(state.kernel, options_.group);
     bind(state, scene);
     passes_.push_back(std::move(state));
   }
@@ -119,7 +128,7 @@ void Plan::warm_up() {
   const Launch nothing{};
   for (PassState& state : passes_) {
     state.kernel.set_bytes(state.launch_index, &nothing, sizeof nothing);
-    device_.launch(state.kernel, pixels_, options_.group, nullptr);
+    device_.launch(state.kernel, pixels_, state.group, nullptr);
   }
   device_.finish();
 }
@@ -127,7 +136,7 @@ void Plan::warm_up() {
 void Plan::enqueue(const Launch& launch) {
   for (PassState& state : passes_) {
     state.kernel.set_bytes(state.launch_index, &launch, sizeof launch);
-    device_.launch(state.kernel, pixels_, options_.group, &state.time);
+    device_.launch(state.kernel, pixels_, state.group, &state.time);
   }
 }
 

@@ -15,16 +15,21 @@
 
 namespace pellucid {
 
+/// Work-items per group where nothing else is asked for: enough that dispatch costs nothing on
+/// CPUs.
+constexpr std::size_t default_group = 64;
+
 struct PlanOptions {
   FeatureSet extra_features;  ///< on top of what the scene needs
   std::string kernel_dir;     ///< read kernels from here instead of the binary
-  std::size_t group = 64;     ///< work-group size of every pass
+  std::size_t group = 0;      ///< work-items per group; 0: default_group or what the kernel can
   bool simd_builtins = true;
 };
 
 struct PassState {
   Pass pass;
   Kernel kernel;
+  std::size_t group = 1;      ///< work-items per group
   unsigned launch_index = 0;  ///< parameter index of the launch struct
   PassTime time;
 };

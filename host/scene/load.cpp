@@ -16,16 +16,15 @@ namespace {
 /// Geometry never stands inside JSON, so that no sensible scene file comes near this.
 constexpr std::size_t max_scene_bytes = std::size_t{64} << 20;
 /// Pixels: what fits the film accumulators of common devices with room to spare.
-constexpr double max_pixels = 1 << 28;
 
 RenderSettings parse_settings(const JsonNode& film_node, const JsonNode& integrator_node) {
   RenderSettings settings;
   const ObjectReader film(film_node, object_spec("film"));
   settings.width = film.integer("width");
   settings.height = film.integer("height");
-  if (static_cast<double>(settings.width) * settings.height > max_pixels)
+  if (static_cast<double>(settings.width) * settings.height > double(largest_film))
     fail(film_node, fmt::format("{} x {} pixels are too many; the most is {:.0f} in all",
-                                settings.width, settings.height, max_pixels));
+                                settings.width, settings.height, double(largest_film)));
   const ObjectReader integrator(integrator_node, object_spec("integrator"));
   if (integrator.has("name")) settings.integrator = integrator.text("name");
   if (integrator.has("spp")) settings.spp = integrator.integer("spp");

@@ -3,12 +3,10 @@
 
 #include <cmath>
 #include <utility>
+#include "scene/scene.h"
 
 namespace pellucid {
 namespace {
-
-/// Beyond this, squares of lengths leave the range of float in the kernels.
-constexpr double largest_coordinate = 1e15;
 
 bool has_area(const Mesh& mesh, const glm::uvec3& t) {
   const glm::dvec3 p0 = mesh.positions[t.x], p1 = mesh.positions[t.y], p2 = mesh.positions[t.z];
@@ -37,7 +35,7 @@ BakedMesh bake_mesh(RawMesh raw, const Affine& transform, bool flip) {
   mesh.positions.reserve(raw.positions.size());
   for (const glm::dvec3& p : raw.positions) {
     const glm::dvec3 q = transform.point(p);
-    for (int i = 0; i < 3; ++i) result.finite &= std::abs(q[i]) <= largest_coordinate;
+    for (int i = 0; i < 3; ++i) result.finite &= std::abs(q[i]) <= largest_length;
     mesh.positions.emplace_back(q);
   }
   raw.positions = {};

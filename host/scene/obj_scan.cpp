@@ -11,12 +11,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "scene/scene.h"
 #include "scene/text_file.h"
 
 namespace pellucid {
 namespace {
-
-constexpr double largest_coordinate = 1e15;  // as for numbers in the scene file
 
 /// The words of one line at a time, with errors that name the place.
 class LineReader {
@@ -57,9 +56,8 @@ class LineReader {
     const bool plain = word.find_first_not_of("+-.0123456789eE") == std::string::npos;
     if (end != word.c_str() + word.size() || !plain || !std::isfinite(value))
       fail(fmt::format("\"{}\" is not a finite number", printable(word)));
-    if (std::abs(value) > largest_coordinate)
-      fail(
-          fmt::format("{} is out of range; the most is {:g}", printable(word), largest_coordinate));
+    if (std::abs(value) > largest_length)
+      fail(fmt::format("{} is out of range; the most is {:g}", printable(word), largest_length));
     return value;
   }
 

@@ -45,8 +45,8 @@ ShapeParts parse_common(const ObjectReader& reader, const SceneBuilder& builder,
 void add_mesh(const ObjectReader& reader, ShapeParts parts, RawMesh raw, SceneBuilder& builder) {
   BakedMesh baked = bake_mesh(std::move(raw), parts.transform, parts.flip);
   if (!baked.finite)
-    fail(reader.node(),
-         fmt::format("{} reaches beyond coordinates of 1e15; scale it down", parts.shape.name));
+    fail(reader.node(), fmt::format("{} reaches beyond coordinates of {:g}; scale it down",
+                                    parts.shape.name, largest_length));
   if (baked.mesh.triangles.empty())
     fail(reader.node(), fmt::format("{} has no triangle with an area", parts.shape.name));
   if (baked.dropped > 0)
@@ -94,7 +94,7 @@ RawMesh parse_rectangle(const ObjectReader& reader) {
   if (!reader.has("edges")) fail(reader.node(), "\"corner\" needs \"edges\" beside it");
   const JsonNode& edges = reader.place("edges");
   if (edges.items.size() != 2) fail(edges, "two edges are needed: [[x, y, z], [x, y, z]]");
-  constexpr Range coordinate{-1e15, 1e15};
+  constexpr Range coordinate{-largest_length, largest_length};
   return make_rectangle(reader.vector("corner"), read_vector(edges.items[0], coordinate),
                         read_vector(edges.items[1], coordinate));
 }

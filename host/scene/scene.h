@@ -10,6 +10,13 @@
 
 namespace pellucid {
 
+/// Largest coordinate and length; its inverse is the smallest length. The kernels' triangle test
+/// multiplies three lengths and sums a few such terms, which must stay within float.
+constexpr double largest_length = 1e11;
+
+/// Largest film: pixels per side and in all, so that pixel numbers fit 32 bits everywhere.
+constexpr int largest_side = 32768, largest_film = 1 << 28;
+
 using Rgb = glm::dvec3;  ///< linear Rec.709
 
 /// How a surface scatters. Only the fields named beside a kind are read for it.

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "scene/metals.h"
+#include "scene/scene.h"
 
 namespace pellucid {
 namespace {
@@ -10,12 +11,11 @@ namespace {
 using T = FieldType;
 using Fields = std::vector<Field>;
 
-// Squares of such lengths still fit a float, and no scene in a sensible unit is smaller or larger.
-constexpr double huge = 1e15, tiny = 1e-15;
+constexpr double brightest = 1e15;  // its square still fits a float
 constexpr Range any{-1e30, 1e30};
-constexpr Range coordinate{-huge, huge};
-constexpr Range length{tiny, huge};
-constexpr Range light{0.0, huge};
+constexpr Range coordinate{-largest_length, largest_length};
+constexpr Range length{1.0 / largest_length, largest_length};
+constexpr Range light{0.0, brightest};
 constexpr Range unit{0.0, 1.0};
 
 const Field type_field{"type", T::text, required, any, "which kind it is"};
@@ -84,8 +84,8 @@ std::vector<ObjectSpec> scene_specs() {
       {"film",
        "size of the picture",
        {
-           {"width", T::integer, "512", {1, 32768}, "pixels"},
-           {"height", T::integer, "512", {1, 32768}, "pixels"},
+           {"width", T::integer, "512", {1, largest_side}, "pixels"},
+           {"height", T::integer, "512", {1, largest_side}, "pixels"},
        }},
       {"integrator",
        "method and effort",
@@ -206,16 +206,17 @@ std::vector<ObjectSpec> generated_specs() {
             {"tube", T::number, "0.2", {0.001, 0.9}, "radius of the tube / radius"}})},
       {"shape/wave-surface", "sum of sine waves over the xz plane, front side up (+y)",
        generated_fields({{"size", T::pair, "[2, 2]", length, "extent along x and z"},
-                         {"amplitude", T::number, "0.1", {0, huge}, "largest height"},
+                         {"amplitude", T::number, "0.1", {0, largest_length}, "largest height"},
                          {"waves", T::integer, "5", {1, 64}, "how many waves"},
                          {"wavelength", T::number, "0.7", length, "of the longest wave"},
                          seed_field})},
       {"shape/height-field", "fractal ground over the xz plane, front side up (+y)",
-       generated_fields({{"size", T::pair, "[2, 2]", length, "extent along x and z"},
-                         {"height", T::number, "0.3", {0, huge}, "largest distance from the plane"},
-                         {"frequency", T::number, "3", {0.01, 1000}, "hills along the longer side"},
-                         {"octaves", T::integer, "6", {1, 12}, "layers of finer noise"},
-                         seed_field})},
+       generated_fields(
+           {{"size", T::pair, "[2, 2]", length, "extent along x and z"},
+            {"height", T::number, "0.3", {0, largest_length}, "largest distance from the plane"},
+            {"frequency", T::number, "3", {0.01, 1000}, "hills along the longer side"},
+            {"octaves", T::integer, "6", {1, 12}, "layers of finer noise"},
+            seed_field})},
   };
 }
 

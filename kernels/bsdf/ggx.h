@@ -29,7 +29,7 @@ INLINE real3 ggx_sample_visible(real3 wo, real alpha, real u, real v) {
   real y = (REAL(1.0) - s) * safe_sqrt(REAL(1.0) - disk.x * disk.x) + s * disk.y;
   real z = safe_sqrt(REAL(1.0) - disk.x * disk.x - y * y);
   real3 n = t1 * disk.x + t2 * y + vh * z;
-  return normalize3(REAL3(alpha * n.x, alpha * n.y, r_max(n.z, REAL(1e-7))));
+  return normalize3(REAL3(alpha * n.x, alpha * n.y, r_max(n.z, (real)FACET_COS_MIN)));
 }
 
 #endif

@@ -43,6 +43,15 @@ INLINE real sign_of(real x, real s) {
   return s < REAL(0.0) ? -r_abs(x) : r_abs(x);
 }
 
+/// Upper word of the 64-bit product: floor(a / 2^32 * b).
+INLINE uint high_word(uint a, uint b) {
+#if PELLUCID_DEVICE
+  return mul_hi(a, b);
+#else
+  return (uint)(((std::uint64_t)a * b) >> 32);
+#endif
+}
+
 /// Finite by bit pattern: isnan may be folded away where a device assumes finite maths.
 INLINE int is_finite(real x) {
 #if PELLUCID_DEVICE

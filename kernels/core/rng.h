@@ -8,7 +8,7 @@
 /// Table of dimensions: blocks of four numbers each.
 #define DIM_PIXEL 0u                           /* x, y within the pixel */
 #define DIM_BSDF(bounce) (1u + 2u * (bounce))  /* x lobe, y z direction, w roulette */
-#define DIM_LIGHT(bounce) (2u + 2u * (bounce)) /* x w pick, y z point */
+#define DIM_LIGHT(bounce) (2u + 2u * (bounce)) /* words x w pick, y z point */
 
 typedef struct Rng {
   uint path;       // pixel or light path index

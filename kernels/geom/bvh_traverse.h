@@ -62,10 +62,10 @@ INLINE uint node_hits(GLOBAL const float* node, RaySlabs s, real t_max, PRIVATE 
 
 /// Tests a quadric and improves `hit`; ties go to the lowest id, as with triangles.
 INLINE void leaf_quadric(PRIVATE const SceneData* scene, uint index, Ray ray, PRIVATE Hit* hit) {
-  ray.t_max = hit->t;
-  real t = quadric_hit(scene->quadrics[index], ray);
   uint prim = scene->info.triangle_count + index;
   if (prim + 1u == ray.aim) return;
+  ray.t_max = hit->t;
+  real t = quadric_hit(scene->quadrics[index], ray);
   if (t > REAL(0.0) && (t < hit->t || prim < hit->prim)) {
     hit->t = t;
     hit->b1 = hit->b2 = REAL(0.0);

@@ -38,20 +38,6 @@ INLINE vreal edge_exact(vreal a, vreal b, vreal c, vreal d) {
   return v_if_zero(ab - cd, v_fma(a, b, -ab) - v_fma(c, d, -cd));
 }
 
-INLINE vreal v_largest(vreal a, vreal b, vreal c) {
-  return v_max(v_max(v_max(a, -a), v_max(b, -b)), v_max(c, -c));
-}
-
-/// Bound of the error of the interpolated depth, times det: from the largest |x|, |y|, |z| of the
-/// sheared vertices and the largest |edge function|, in first order of roundoffs [PBRT4 6.8.7]. A
-/// ray that leaves a plane starts off it by the error of its origin only; at smaller distances than
-/// this bound its own plane may still seem to lie ahead.
-INLINE vreal depth_error(vreal x, vreal y, vreal z, vreal e) {
-  vreal dx = v_splat(REAL(5.0)) * (x + z), dy = v_splat(REAL(5.0)) * (y + z);
-  vreal de = v_splat(REAL(2.0)) * (v_splat(REAL(2.0)) * x * y + dy * x + dx * y);
-  return v_splat((real)(3.0f * UNIT_ROUNDOFF)) * z * (v_splat(REAL(6.0)) * e + de);
-}
-
 /// Tests the block at `v` ([3 vertices][3 axes][SIMD_WIDTH] floats) and improves `hit` (t, weights,
 /// prim). Equal distances go to the lowest primitive id, so the order of visits does not matter.
 INLINE void triangle_block(GLOBAL const float* v, GLOBAL const uint* prims, RayShear s,
@@ -91,14 +77,6 @@ INLINE void triangle_block(GLOBAL const float* v, GLOBAL const uint* prims, RayS
   vreal t = v_fma(e0, az, v_fma(e1, bz, e2 * cz)) * inv * v_splat(s.sz);
   // A degenerate triangle has det = 0, so t is NaN or infinite and fails one of these.
   inside &= v_mask_lt(zero, t) & v_mask_le(t, v_splat(hit->t));
-  if (inside == 0u) return;
-  // Surely ahead: all vertices are (differences have the right sign), or t exceeds its error. The
-  // first keeps edge-on triangles, whose t knows little, from being lost.
-  vreal vsz = v_splat(s.sz);
-  vreal bound = depth_error(v_largest(ax, bx, cx), v_largest(ay, by, cy), v_largest(az, bz, cz),
-                            v_largest(e0, e1, e2)) *
-                v_max(inv, -inv) * v_max(vsz, -vsz);
-  inside &= v_mask_lt(zero, v_min(az * vsz, v_min(bz * vsz, cz * vsz))) | v_mask_lt(bound, t);
   if (inside == 0u) return;
   SIMD_ALIGNED real lane_t[SIMD_WIDTH];
   SIMD_ALIGNED real lane_b1[SIMD_WIDTH];

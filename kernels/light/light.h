@@ -26,13 +26,12 @@ INLINE real3 light_emitted(PRIVATE const SceneData* scene, PRIVATE const Surface
   return load3(scene->lights[s->light].value);
 }
 
-/// Light chosen by an alias table [Walker77]: slot from `u`, then the slot's own light if `keep` is
-/// below its threshold, else its alias. Two numbers, since what 24 bits leave of u behind the slot
-/// would pick the weakest of 1e5 lights many times too often.
-INLINE uint light_pick(PRIVATE const SceneData* scene, real u, real keep) {
-  uint count = scene->info.light_count;
-  uint slot = (uint)(u * (real)count);
-  slot = slot < count ? slot : count - 1u;
+/// Light chosen by an alias table [Walker77]: slot from one 32-bit word, then the slot's own light
+/// if another word says so, else its alias. Whole words, since with 24 bits a light among a million
+/// would be picked some percent more or less often than prob_pick says.
+INLINE uint light_pick(PRIVATE const SceneData* scene, uint slot_word, uint keep_word) {
+  uint slot = high_word(slot_word, scene->info.light_count);
+  real keep = (real)keep_word * REAL(2.3283064365386963e-10); /* 2^-32 */
   return keep < (real)scene->lights[slot].value.w ? slot : scene->lights[slot].alias;
 }
 
@@ -43,7 +42,7 @@ INLINE int sphere_cone(F4 center_radius, real3 p, PRIVATE real* sin2_max,
   real3 to_center = load3(center_radius) - p;
   real d2 = dot3(to_center, to_center);
   real r = (real)center_radius.w;
-  if (d2 <= r * r * REAL(1.00001)) return 0;  // so close that the cone is the hemisphere to float
+  if (d2 <= r * r * (real)SPHERE_NEAR) return 0;
   *sin2_max = r * r / d2;
   *one_minus_cos = *sin2_max / (REAL(1.0) + r_sqrt(REAL(1.0) - *sin2_max));
   return 1;
@@ -57,8 +56,10 @@ INLINE real area_to_solid_angle(real distance2, real cos_light, real area) {
 INLINE real triangle_area(PRIVATE const SceneData* scene, uint prim) {
   Triangle tri = scene->triangles[prim];
   real3 v0 = load3(scene->positions[tri.v0]);
-  return REAL(0.5) * length3(cross3(load3(scene->positions[tri.v1]) - v0,
-                                    load3(scene->positions[tri.v2]) - v0));
+  real scale;
+  real3 n = scaled_normal(load3(scene->positions[tri.v1]) - v0,
+                          load3(scene->positions[tri.v2]) - v0, &scale);
+  return REAL(0.5) * length3(n) * scale * scale;
 }
 
 INLINE real surface_light_area(PRIVATE const SceneData* scene, Light light) {
@@ -109,8 +110,9 @@ INLINE void sample_surface_point(PRIVATE const SceneData* scene, Light light, re
                  area_to_solid_angle(d2, r_abs(cos_light), surface_light_area(scene, light));
 }
 
-INLINE void sample_triangle_light(PRIVATE const SceneData* scene, Light light, real3 p, real u,
-                                  real v, PRIVATE LightSample* out) {
+INLINE void sample_triangle_light(PRIVATE const SceneData* scene, Light light, real3 p, U4 words,
+                                  PRIVATE LightSample* out) {
+  real u = rng_unit(words.y), v = rng_unit(words.z);
   Triangle tri = scene->triangles[light.prim];
   Surface s;
   surface_shape(scene, tri.shape, light.prim, &s);
@@ -120,8 +122,9 @@ INLINE void sample_triangle_light(PRIVATE const SceneData* scene, Light light, r
   sample_surface_point(scene, light, p, &s, out);
 }
 
-INLINE void sample_sphere_light(PRIVATE const SceneData* scene, Light light, real3 p, real u,
-                                real v, PRIVATE LightSample* out) {
+INLINE void sample_sphere_light(PRIVATE const SceneData* scene, Light light, real3 p, U4 words,
+                                PRIVATE LightSample* out) {
+  real u = rng_unit(words.y), v = rng_unit(words.z);
   Quadric q = scene->quadrics[light.prim - scene->info.triangle_count];
   Surface s;
   surface_shape(scene, q.shape, light.prim, &s);
@@ -148,8 +151,9 @@ INLINE void sample_sphere_light(PRIVATE const SceneData* scene, Light light, rea
   sample_surface_point(scene, light, p, &s, out);
 }
 
-INLINE void sample_disk_light(PRIVATE const SceneData* scene, Light light, real3 p, real u, real v,
+INLINE void sample_disk_light(PRIVATE const SceneData* scene, Light light, real3 p, U4 words,
                               PRIVATE LightSample* out) {
+  real u = rng_unit(words.y), v = rng_unit(words.z);
   Quadric q = scene->quadrics[light.prim - scene->info.triangle_count];
   Surface s;
   surface_shape(scene, q.shape, light.prim, &s);
@@ -160,9 +164,9 @@ INLINE void sample_disk_light(PRIVATE const SceneData* scene, Light light, real3
   sample_surface_point(scene, light, p, &s, out);
 }
 
-/// Samples one light from p: u.x and u.w pick it, u.y and u.z its point. radiance = 0 where the
+/// Samples one light from p: words x and w pick it, y and z its point. radiance = 0 where the
 /// sample carries nothing.
-INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, Random4 u) {
+INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, U4 words) {
   LightSample out;
   out.wi = REAL3(0.0f, 0.0f, 1.0f);
   out.target = p;
@@ -170,21 +174,22 @@ INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, Random4
   out.pdf_w = REAL(0.0);
   out.aim = 0;
   out.delta = out.at_infinity = 0;
-  Light light = scene->lights[light_pick(scene, u.x, u.w)];
+  if (scene->info.light_count == 0u) return out;
+  Light light = scene->lights[light_pick(scene, words.x, words.w)];
   switch (light.kind) {
 #if FEAT_LIGHT_TRIANGLE
     case LIGHT_TRIANGLE:
-      sample_triangle_light(scene, light, p, u.y, u.z, &out);
+      sample_triangle_light(scene, light, p, words, &out);
       break;
 #endif
 #if FEAT_LIGHT_SPHERE
     case LIGHT_SPHERE:
-      sample_sphere_light(scene, light, p, u.y, u.z, &out);
+      sample_sphere_light(scene, light, p, words, &out);
       break;
 #endif
 #if FEAT_LIGHT_DISK
     case LIGHT_DISK:
-      sample_disk_light(scene, light, p, u.y, u.z, &out);
+      sample_disk_light(scene, light, p, words, &out);
       break;
 #endif
 #if FEAT_LIGHT_POINT
@@ -210,7 +215,7 @@ INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, Random4
 #endif
 #if FEAT_LIGHT_ENVIRONMENT
     case LIGHT_ENVIRONMENT:
-      out.wi = warp_sphere(u.y, u.z);
+      out.wi = warp_sphere(rng_unit(words.y), rng_unit(words.z));
       out.radiance = load3(light.value);
       out.pdf_w = (real)light.prob_pick * INV_FOUR_PI;
       out.at_infinity = 1;

@@ -10,6 +10,11 @@
 /// 1 and for rounding the offset point itself.
 #define POINT_ERROR_ULPS 10.0f
 
+/// Error of a distance interpolated within a triangle, in unit roundoffs of its extent: 1 ended all
+/// re-hits of planes through the origin in the tests, 8 began to widen the gap that light leaks
+/// through.
+#define EXTENT_ERROR_ULPS 4.0f
+
 /// Padding of boxes, in unit roundoffs of (|origin| + largest |coordinate|): 3 for 1/d, 1 for o/d,
 /// 1 for the fma, 2 for the leaf's own translation; 8 rounds up.
 #define BOX_PAD_ULPS 8.0f
@@ -29,6 +34,13 @@
 /// |ior - 1| below this is an index-matched surface: the half vector of a refraction would be 0/0.
 #define IOR_MATCHED 1e-4f
 
+/// A point this near a sphere (distance^2 over radius^2) sees almost a hemisphere: the sphere is
+/// then sampled by area. Further in, 1 - sin^2 would keep fewer than 7 bits.
+#define SPHERE_NEAR 1.00001f
+
+/// Least cosine of a sampled facet normal, so that its tangent stays finite in float.
+#define FACET_COS_MIN 1e-7f
+
 /// Hard limit on segments when no depth is asked for; reaching it is counted as path_stuck.
 #define DEPTH_HARD_LIMIT 16384u
 
@@ -36,7 +48,7 @@
 #define REFERENCE_SURVIVE 0.9f
 
 /// Largest splat in fixed-point steps: 2^40, so that 2^24 of the largest fit into 64 bits. The step
-/// itself follows the scene's power (Launch.splat_scale).
+/// is Launch.splat_scale; light tracing will set it by the scene's power.
 #define SPLAT_FIXED_MAX 1099511627776.0f /* 2^40 */
 
 #endif

@@ -57,7 +57,7 @@ INLINE void walk_emission(PRIVATE const SceneData* scene, Launch launch, PRIVATE
 INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uint bounce,
                      PRIVATE const Vertex* v, PRIVATE Walk* walk) {
 #if INTG_NEE
-  LightSample light = light_sample(scene, v->surface.p, rng4(rng, DIM_LIGHT(bounce)));
+  LightSample light = light_sample(scene, v->surface.p, rng_words(rng, DIM_LIGHT(bounce)));
   if (is_black(light.radiance)) return;
   real cos_wi;
   BsdfEval e = vertex_eval(v, light.wi, &cos_wi);

@@ -31,7 +31,10 @@ INLINE Vertex vertex_at(PRIVATE const SceneData* scene, Surface surface, real3 w
   v.context.importance = importance;
   real ior = (real)v.material.ior;
   v.context.eta = v.side > REAL(0.0) ? ior : REAL(1.0) / ior;
-  v.black = cos_g == REAL(0.0) || v.context.wo.z <= REAL(0.0);
+  // A broken normal or direction ends the walk, but not in silence.
+  int broken = !is_finite(cos_g + cos_s);
+  if (broken) diag_count(scene, DIAG_nonfinite_vertex);
+  v.black = broken || cos_g == REAL(0.0) || v.context.wo.z <= REAL(0.0);
 #if FEAT_ONE_SIDED
   v.black |= (surface.flags & SHAPE_ONE_SIDED) && v.side < REAL(0.0);
 #endif

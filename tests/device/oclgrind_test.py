@@ -4,12 +4,15 @@
 Usage: oclgrind_test.py path/to/pellucid path/to/device_tests
 Oclgrind simulates a device without SIMD builtins, so the portable code is what runs here.
 """
+import json
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
 
 PELLUCID, DEVICE_TESTS = map(os.path.abspath, sys.argv[1:3])
+EVERYTHING = str(pathlib.Path(__file__).parents[1] / "render/scenes/everything.json")
 # Method and scene: together they hold every pass and most lobes and lights.
 RUNS = [("path", "gallery"), ("nee", "four-balls-sun"), ("reference", "four-balls-background"),
         ("naive", "cornell-box")]
@@ -30,7 +33,18 @@ with tempfile.TemporaryDirectory() as folder:
         check(f"{method} {scene}",
               [PELLUCID, "render", scene, "-i", method, "--spp", "1", "--size", "8x8", "--max-depth", "5",
                "--device", "Oclgrind", "--strict", "-o", f"{folder}/{scene}.exr"])
+    # Code for effects that the scene lacks must not run astray; a scene without light has no light to pick.
+    dark = pathlib.Path(folder, "dark.json")
+    dark.write_text(json.dumps({
+        "version": 1, "camera": {"origin": [0, 0, 3], "target": [0, 0, 0]},
+        "materials": {"m": {"type": "diffuse"}},
+        "shapes": [{"type": "sphere", "material": "m"}]}))
+    for scene in (str(dark), EVERYTHING):
+        check(f"all features {scene}",
+              [PELLUCID, "render", scene, "--features", "all", "--spp", "1", "--size", "8x8",
+               "--max-depth", "4", "--device", "Oclgrind", "-o", f"{folder}/all.exr"])
 # No method splats yet: the splat film goes through its own test (probe_splat, film_add).
+check("layouts", [DEVICE_TESTS, "--gtest_filter=DeviceTest.LayoutsAgree"])
 check("splats", [DEVICE_TESTS, "--gtest_filter=SplatTest.WhatCannotBeAddedIsCounted"])
-print(f"{len(RUNS) + 1} runs, {len(failures)} with findings")
+print(f"{len(RUNS) + 4} runs, {len(failures)} with findings")
 sys.exit(bool(failures))

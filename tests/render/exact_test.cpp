@@ -127,7 +127,7 @@ TEST(Exact, width_of_the_tree) {
 TEST(Exact, scale_of_the_world) {
   for (const char* m : methods) {
     const auto film = film_of(everything(), build_of(m));
-    for (int k : {-20, -8, 8, 20}) {
+    for (int k : {-33, -20, -8, 8, 20, 33}) {
       const auto other = film_of(scaled(everything(), k), build_of(m));
       EXPECT_TRUE(same_film(film, other))
           << m << ", lengths times 2^" << k << ": " << different_pixels(film, other) << " pixels";

@@ -18,6 +18,7 @@ class Random {
     return low + (high - low) * (double(engine_() >> 11) * 0x1p-53);
   }
   /// A multiple of 2^-24 in [0, 1), as the kernels draw it.
+  std::uint32_t word() { return std::uint32_t(engine_() >> 32); }
   double unit24() { return double(engine_() >> 40) * 0x1p-24; }
   unsigned below(unsigned n) { return unsigned((engine_() >> 32) * n >> 32); }
   glm::dvec3 in_box(double half) {

@@ -24,8 +24,8 @@ std::vector<double> powers_over(Random& random, int n, double decades) {
 }
 
 uint pick(const TwinScene& twin, Random& random) {
-  const real slot = real(random.unit24());
-  return light_pick(&twin.data, slot, real(random.unit24()));
+  const uint slot = random.word();
+  return light_pick(&twin.data, slot, random.word());
 }
 
 TEST(TwinLightPick, FrequenciesAreTheProbabilities) {
@@ -73,17 +73,22 @@ TEST(TwinLightPick, ZeroPowerIsNeverPicked) {
   for (size_t i = 0; i < powers.size(); i += 2) powers[i] = 0;
   const TwinScene twin(lights(powers));
   for (int i = 0; i < 1000000; ++i) ASSERT_GT(powers[pick(twin, random)], 0.0);
-  const real ends[] = {0, real(0x1p-24), real(0.5), real(1 - 0x1p-24)};
-  for (real a : ends)
-    for (real b : ends) EXPECT_GT(powers[light_pick(&twin.data, a, b)], 0.0);
+  const uint ends[] = {0u, 1u, 0x80000000u, 0xffffffffu};
+  for (uint a : ends)
+    for (uint b : ends) EXPECT_GT(powers[light_pick(&twin.data, a, b)], 0.0);
 }
 
 TEST(TwinLightPick, EverySlotIsReachable) {
-  // Also where u * count rounds up to the count.
   for (int count : {1, 3, 1000, 99991}) {
     const TwinScene twin(lights(std::vector<double>(size_t(count), 1.0)));
     EXPECT_EQ(light_pick(&twin.data, 0, 0), 0u);
-    EXPECT_EQ(light_pick(&twin.data, real(1 - 0x1p-24), 0), uint(count - 1));
+    // A slot begins at ceil(slot 2^32 / count): shares differ by one word, far below prob_pick.
+    for (int slot = 1; slot < count; slot += 1 + count / 50) {
+      const auto first = uint(((std::uint64_t(slot) << 32) + uint(count) - 1) / uint(count));
+      EXPECT_EQ(light_pick(&twin.data, first, 0), uint(slot));
+      EXPECT_EQ(light_pick(&twin.data, first - 1, 0), uint(slot - 1));
+    }
+    EXPECT_EQ(light_pick(&twin.data, 0xffffffffu, 0), uint(count - 1));
   }
 }
 

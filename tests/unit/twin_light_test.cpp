@@ -96,8 +96,8 @@ std::vector<LightCase> light_cases() {
 }
 
 LightSample sample(const TwinScene& twin, const glm::dvec3& p, Random& random) {
-  const real pick = real(random.unit24()), u = real(random.unit24()), v = real(random.unit24());
-  return light_sample(&twin.data, to_real3(p), Random4{pick, u, v, real(random.unit24())});
+  const uint pick = random.word(), u = random.word(), v = random.word();
+  return light_sample(&twin.data, to_real3(p), U4{pick, u, v, random.word()});
 }
 
 /// Directions too close for float are a matter of the double build.
