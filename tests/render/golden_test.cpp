@@ -116,7 +116,7 @@ TEST_P(GoldenTest, agrees_with_path) {
   Renderer renderer(scene, {"path", golden.width, golden.height});
   Sampling sampling;
   if (scene.settings.max_depth) sampling.max_depth = uint(*scene.settings.max_depth);
-  const auto most = std::uint64_t(8192 * tier_effort());
+  const auto most = std::uint64_t(32768 * tier_effort());
   sampling.spp =
       std::max<std::uint64_t>(512, renderer.spp_for(sampling, tier_tolerance() / 9, most));
   const Picture picture = renderer.render(sampling);
