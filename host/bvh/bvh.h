@@ -61,7 +61,7 @@ struct WideTree {
   std::vector<std::uint32_t> order;
 };
 
-/// Collapses to nodes of up to `width` children by opening the child of largest area first.
+/// Collapses to nodes of up to `width` children at the least expected cost [Ylitie17].
 WideTree collapse(const BinaryTree& tree, int width);
 
 /// Most entries that depth-first traversal can have on its stack: over all root-to-leaf walks, the

@@ -1,4 +1,4 @@
-// From the binary tree to wide nodes, and figures about the result.
+// From the binary tree to wide nodes of least expected cost, and figures about the result.
 #include <algorithm>
 
 #include "base/error.h"
@@ -6,6 +6,80 @@
 
 namespace pellucid::bvh {
 namespace {
+
+/// Expected visits of a random line, in units of half_area: a node and a leaf block cost the same.
+constexpr double node_cost = 1.0, leaf_cost = 1.0;
+
+/// Optimal collapse [Ylitie17 3.1]: for every binary node n and every i up to the width, the least
+/// cost of representing its subtree by a forest of at most i roots, by dynamic programming from the
+/// leaves up.
+class Optimiser {
+ public:
+  Optimiser(const BinaryTree& tree, int width)
+      : tree_(tree), width_(width), cost_(tree.nodes.size() * size_t(width)), left_(cost_.size()) {
+    // Children have larger indices than their parents.
+    for (size_t n = tree.nodes.size(); n-- > 0;) solve(n);
+  }
+
+  /// The subtrees that become children of the wide node for `n`.
+  std::vector<std::uint32_t> children(std::uint32_t n) const {
+    std::vector<std::uint32_t> out;
+    if (tree_.nodes[n].count > 0) {
+      out.push_back(n);
+    } else {
+      const int left = left_[at(n, 1)];
+      gather(tree_.nodes[n].left, left, out);
+      gather(tree_.nodes[n].right, width_ - left, out);
+    }
+    return out;
+  }
+
+ private:
+  size_t at(size_t n, int roots) const { return n * size_t(width_) + size_t(roots - 1); }
+
+  /// Best division of `roots` between the children: cost and how many go left.
+  std::pair<double, int> distribute(const BinaryNode& node, int roots) const {
+    std::pair<double, int> best{std::numeric_limits<double>::infinity(), 1};
+    for (int k = 1; k < roots; ++k)
+      best = std::min(
+          best, {double(cost_[at(node.left, k)]) + double(cost_[at(node.right, roots - k)]), k});
+    return best;
+  }
+
+  void solve(size_t n) {
+    const BinaryNode& node = tree_.nodes[n];
+    if (node.count > 0) {
+      for (int i = 1; i <= width_; ++i) cost_[at(n, i)] = float(leaf_cost * node.box.half_area());
+      return;
+    }
+    // One root: a wide node over the best forest of `width`. left_ of one root is that forest's
+    // division.
+    const auto [inside, left] = distribute(node, width_);
+    cost_[at(n, 1)] = float(node_cost * node.box.half_area() + inside);
+    left_[at(n, 1)] = std::uint8_t(left);
+    for (int i = 2; i <= width_; ++i) {
+      const auto [apart, k] = distribute(node, i);
+      const bool open = apart < double(cost_[at(n, 1)]);
+      cost_[at(n, i)] = open ? float(apart) : cost_[at(n, 1)];
+      left_[at(n, i)] = open ? std::uint8_t(k) : std::uint8_t(0);  // 0: stays one root
+    }
+  }
+
+  void gather(std::uint32_t n, int roots, std::vector<std::uint32_t>& out) const {
+    const int left = roots > 1 && tree_.nodes[n].count == 0 ? left_[at(n, roots)] : 0;
+    if (left == 0) {
+      out.push_back(n);
+      return;
+    }
+    gather(tree_.nodes[n].left, left, out);
+    gather(tree_.nodes[n].right, roots - left, out);
+  }
+
+  const BinaryTree& tree_;
+  int width_;
+  std::vector<float> cost_;         // [node][roots - 1]
+  std::vector<std::uint8_t> left_;  // [node][roots - 1]
+};
 
 WideChild as_child(const BinaryNode& node) {
   WideChild child;
@@ -15,38 +89,17 @@ WideChild as_child(const BinaryNode& node) {
   return child;
 }
 
-/// Opens children of `root` until `width` are there, the largest inner one first.
-std::vector<std::uint32_t> open_children(const BinaryTree& tree, std::uint32_t root, int width) {
-  if (tree.nodes[root].count > 0) return {root};
-  std::vector<std::uint32_t> open{tree.nodes[root].left, tree.nodes[root].right};
-  while (static_cast<int>(open.size()) < width) {
-    int largest = -1;
-    double area = -1.0;
-    for (size_t i = 0; i < open.size(); ++i) {
-      const BinaryNode& node = tree.nodes[open[i]];
-      if (node.count == 0 && node.box.half_area() > area) {
-        area = node.box.half_area();
-        largest = static_cast<int>(i);
-      }
-    }
-    if (largest < 0) break;
-    const BinaryNode& node = tree.nodes[open[largest]];
-    open[largest] = node.left;
-    open.insert(open.begin() + largest + 1, node.right);
-  }
-  return open;
-}
-
-void collapse_into(const BinaryTree& tree, std::uint32_t root, int width, WideTree& out) {
+void collapse_into(const BinaryTree& tree, const Optimiser& best, std::uint32_t root,
+                   WideTree& out) {
   const size_t index = out.nodes.size();
   out.nodes.emplace_back();
-  const std::vector<std::uint32_t> open = open_children(tree, root, width);
+  const std::vector<std::uint32_t> open = best.children(root);
   out.nodes[index].child_count = static_cast<int>(open.size());
   for (size_t i = 0; i < open.size(); ++i) {
     WideChild child = as_child(tree.nodes[open[i]]);
     if (child.count == 0) {
       child.node = static_cast<std::uint32_t>(out.nodes.size());
-      collapse_into(tree, open[i], width, out);
+      collapse_into(tree, best, open[i], out);
     }
     out.nodes[index].child[i] = child;
   }
@@ -74,7 +127,7 @@ WideTree collapse(const BinaryTree& tree, int width) {
   PELLUCID_CHECK(width >= 2 && width <= max_width, "node width");
   WideTree out;
   out.order = tree.order;
-  if (!tree.nodes.empty()) collapse_into(tree, 0, width, out);
+  if (!tree.nodes.empty()) collapse_into(tree, Optimiser(tree, width), 0, out);
   return out;
 }
 

@@ -145,7 +145,9 @@ class Flattener {
       const uint prim = tree_.order[child.first + std::min<size_t>(lane, child.count - 1)];
       out_.leaf_prims.push_back(prim);
       const Triangle& t = out_.triangles[prim];
-      const uint vertices[3] = {t.v0, t.v1, t.v2};
+      // Rounding could open a collinear triangle; with one vertex repeated none is ever hit.
+      const bool open = has_area(t);
+      const uint vertices[3] = {t.v0, open ? t.v1 : t.v0, open ? t.v2 : t.v0};
       for (size_t v = 0; v < 3; ++v) {
         const F4& p = out_.positions[vertices[v]];
         const float xyz[3] = {p.x, p.y, p.z};
@@ -153,6 +155,13 @@ class Flattener {
           out_.leaves[at + (3 * v + axis) * width_ + lane] = xyz[axis];
       }
     }
+  }
+
+  bool has_area(const Triangle& t) const {
+    const auto at = [&](uint v) {
+      return glm::dvec3(out_.positions[v].x, out_.positions[v].y, out_.positions[v].z);
+    };
+    return glm::cross(at(t.v1) - at(t.v0), at(t.v2) - at(t.v0)) != glm::dvec3(0.0);
   }
 
   /// Finite stand-in for infinity that survives (bound - origin) / direction without overflow to
