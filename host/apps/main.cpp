@@ -19,6 +19,7 @@
   X(devices, "the OpenCL devices here and what they can do")                 \
   X(info, "what is in a scene or an image")                                  \
   X(compare, "error of image A against reference B, with gates for scripts") \
+  X(bench, "speed of this device, beside Embree where present")              \
   X(kernels, "the specialised programs for a scene and method")
 
 namespace pellucid {

@@ -9,7 +9,15 @@
 namespace pellucid {
 namespace {
 
-/// Parameter names of a bundle, from the kernels' own list.
+bool uses(const Integrator& integrator, Bundle bundle) {
+  for (const Pass& pass : integrator.passes)
+    for (Bundle b : pass.bundles)
+      if (b == bundle) return true;
+  return false;
+}
+
+}  // namespace
+
 std::vector<std::string> bundle_buffers(Bundle bundle) {
 #define PELLUCID_NAME(T, name, meaning) #name,
   switch (bundle) {
@@ -26,15 +34,15 @@ std::vector<std::string> bundle_buffers(Bundle bundle) {
   throw InternalError("unknown bundle");
 }
 
-bool uses(const Integrator& integrator, Bundle bundle) {
-  for (const Pass& pass : integrator.passes)
-    for (Bundle b : pass.bundles)
-      if (b == bundle) return true;
-  return false;
+std::map<std::string, Buffer> upload_scene(Device& device, const PackedScene& scene) {
+  std::map<std::string, Buffer> buffers;
+#define PELLUCID_UPLOAD(T, name, meaning) \
+  buffers[#name] = device.create_buffer(#name, scene.name.size() * sizeof(T), scene.name.data());
+  SCENE_BUFFERS(PELLUCID_UPLOAD)
+#undef PELLUCID_UPLOAD
+  return buffers;
 }
 
-/// The group asked for, or the default within what the kernel can: a large kernel may allow less
-/// than its device does.
 std::size_t group_for(const Kernel& kernel, std::size_t asked) {
   if (asked > kernel.max_group())
     throw DeviceError("a work-group of " + std::to_string(asked) + " is more than the " +
@@ -43,7 +51,13 @@ std::size_t group_for(const Kernel& kernel, std::size_t asked) {
   return asked ? asked : std::min(default_group, kernel.max_group());
 }
 
-}  // namespace
+void collect_counters(Device& device, const Buffer& diag, std::vector<Counter>& counters) {
+  std::vector<uint> counts(DIAG_COUNT);
+  device.read(diag, counts.data(), counts.size() * sizeof(uint));
+  for (std::size_t i = 0; i < counts.size(); ++i) counters.at(i).count += counts[i];
+  std::fill(counts.begin(), counts.end(), 0u);
+  device.write(diag, counts.data(), counts.size() * sizeof(uint));
+}
 
 std::map<std::string, std::size_t> plan_memory(const PackedScene& scene,
                                                const Integrator& integrator, std::size_t pixels) {
@@ -88,10 +102,7 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
       specialisation_(specialise(scene, integrator, device_.info(), options)),
       pixels_(std::size_t(width) * height) {
   const auto bytes = plan_memory(scene, integrator, pixels_);
-#define PELLUCID_UPLOAD(T, name, meaning) \
-  buffers_[#name] = device_.create_buffer(#name, bytes.at(#name), scene.name.data());
-  SCENE_BUFFERS(PELLUCID_UPLOAD)
-#undef PELLUCID_UPLOAD
+  buffers_ = upload_scene(device_, scene);
   for (const auto& [name, size] : bytes)
     if (!buffers_.count(name)) buffers_[name] = device_.create_buffer(name, size);
   const KernelFiles files(options_.kernel_dir);
@@ -147,11 +158,7 @@ std::vector<FilmPixel> Plan::read_film() {
 }
 
 void Plan::collect(std::vector<Counter>& counters) {
-  std::vector<uint> counts(DIAG_COUNT);
-  device_.read(buffers_.at("diag"), counts.data(), counts.size() * sizeof(uint));
-  for (std::size_t i = 0; i < counts.size(); ++i) counters.at(i).count += counts[i];
-  std::fill(counts.begin(), counts.end(), 0u);
-  device_.write(buffers_.at("diag"), counts.data(), counts.size() * sizeof(uint));
+  collect_counters(device_, buffers_.at("diag"), counters);
 }
 
 std::map<std::string, std::size_t> Plan::memory() const {

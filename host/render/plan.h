@@ -26,6 +26,19 @@ struct PlanOptions {
   bool simd_builtins = true;
 };
 
+/// Parameter names of a bundle, from the kernels' own list (kernels/shared/buffers.h).
+std::vector<std::string> bundle_buffers(Bundle bundle);
+
+/// All buffers of Bundle::scene, uploaded.
+std::map<std::string, Buffer> upload_scene(Device& device, const PackedScene& scene);
+
+/// Adds the device's counters to `counters` and clears them.
+void collect_counters(Device& device, const Buffer& diag, std::vector<Counter>& counters);
+
+/// The group asked for, or the default within what the kernel can: a large kernel may allow less
+/// than its device does. Throws DeviceError.
+std::size_t group_for(const Kernel& kernel, std::size_t asked);
+
 struct PassState {
   Pass pass;
   Kernel kernel;

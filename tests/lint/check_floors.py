@@ -19,7 +19,8 @@ HOST = {
     "pack": {"base", "scene", "bvh", "shared"},
     "render": {"base", "image", "cl", "pack", "scene", "bvh", "shared"},
     "integrators": {"base", "pack", "render"},
-    "apps": {"base", "image", "bvh", "cl", "scene", "pack", "render", "integrators", "shared"},
+    "bench": {"base", "cl", "pack", "render", "scene", "bvh", "shared"},
+    "apps": {"base", "bench", "image", "bvh", "cl", "scene", "pack", "render", "integrators", "shared"},
 }
 _LOW = {"shared", "core", "geom"}
 KERNELS = {
@@ -38,6 +39,7 @@ LIBRARIES = {
     r"OpenImageIO/": {"image"},
     r"CL/(cl|opencl)": {"cl"},
     r"tiny_obj_loader": {"scene"},
+    r"embree3/": {"bench"},
     r"glm/": {"bvh", "scene", "pack"},
 }
 
