@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""`pellucid bench`: the JSON that scripts rely on, and the gate against a baseline.
+
+Usage: bench_test.py path/to/pellucid   (exit 0: all checks hold)
+Figures are not judged: a timed test would flake. What is judged is that they are there and that hits
+agree with Embree's where it is present.
+"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+PELLUCID = os.path.abspath(sys.argv[1])
+failures = []
+
+
+def run(*arguments):
+    done = subprocess.run([PELLUCID, "bench", "--only", "rays", "--repeats", "1", *arguments],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=300)
+    return done.returncode, done.stdout, done.stderr
+
+
+def check(condition, what, *details):
+    if not condition:
+        failures.append(what)
+        print("FAILED:", what, *details, sep="\n  ")
+
+
+with tempfile.TemporaryDirectory() as folder:
+    baseline = pathlib.Path(folder, "baseline.json")
+    code, out, err = run("--json", "-")
+    check(code == 0, "exit code", code, err)
+    result = json.loads(out)
+    cells = {(c["triangles"], c["kind"]) for c in result["rays"]}
+    check(len(cells) == 9 and {k for _, k in cells} == {"primary", "diffuse", "shadow"}, "cells", cells)
+    for cell in result["rays"]:
+        check(cell["mrays_per_s"] > 0, "speed", cell)
+        check({"embree_mrays_per_s", "ratio", "embree_robust_mrays_per_s", "ratio_robust"} <= set(cell),
+              "keys", cell)
+        # About a million rays: a few graze an edge, where Embree's robust mode decides otherwise.
+        check(cell["differing_hits"] <= 10, "hits are Embree's", cell)
+    check([b["seconds"] > 0 for b in result["build"]] == [True] * 3, "builds", result["build"])
+
+    for cell in result["rays"]:
+        cell["mrays_per_s"] *= 100
+    baseline.write_text(json.dumps(result))
+    code, out, err = run("--baseline", str(baseline), "--fail-slower", "50%")
+    check(code == 1 and "slower" in err, "a hundred times slower fails the gate", code, err)
+
+    baseline.write_text("{}")
+    code, out, err = run("--baseline", str(baseline))
+    check(code == 3 and "baseline.json" in err, "no baseline", code, err)
+    code, out, err = run("--baseline", str(baseline), "--fail-slower", "much")
+    check(code == 2, "no number", code, err)
+    done = subprocess.run([PELLUCID, "bench", "--only", "everything"], stderr=subprocess.PIPE, text=True)
+    check(done.returncode == 2 and "rays" in done.stderr, "no such workload", done.stderr)
+print(f"{len(failures)} checks failed" if failures else "all checks hold")
+sys.exit(bool(failures))
