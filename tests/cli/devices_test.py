@@ -15,7 +15,7 @@ sys.dont_write_bytecode = True
 # pylint: disable=wrong-import-position
 from harness import PELLUCID, QUICK, SOURCE, check, document, expect, run, run_tests
 
-COMMANDS = ("render", "devices", "info", "compare", "kernels")
+COMMANDS = ("render", "devices", "info", "compare", "bench", "kernels")
 METHODS = ("naive", "nee", "path", "reference")
 
 
