@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <future>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
 #include "apps/common.h"
 #include "apps/outputs.h"
+#include "apps/render_options.h"
 #include "apps/render_report.h"
 #include "apps/scene_input.h"
 #include "base/files.h"
@@ -22,122 +22,15 @@
 namespace pellucid {
 namespace {
 
-/// CLI11 would take -1 and all that is too large for 2^64 - 1.
-std::string whole_number(const std::string& text) {
-  std::uint64_t value = 0;
-  const char* const text_end = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), text_end, value);
-  const bool whole = error == std::errc() && end == text_end;
-  return whole ? "" : fmt::format("takes a whole number such as 7, not '{}'", text);
-}
-
-struct RenderCommand {
-  std::string scene, integrator, mis = "balance", time, size, device, features = "auto", kernel_dir,
-                                 stats;
-  std::vector<std::string> outputs, aovs;
-  std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0;
-  bool strict = false, deterministic = false;
-
-  void declare(CLI::App& app);
+struct RenderCommand : RenderFlags {
   ExitCode run(const CommonOptions& common) const;
 
  private:
-  RenderOptions options(const Scene& scene, const Integrator& method) const;
-  std::vector<std::string> output_names(const Scene& scene) const;
-  void check_aovs() const;
   void check_outputs(const std::vector<std::string>& names, const CommonOptions& common) const;
   Device open_device(RenderFacts& facts) const;
   ExitCode finish(const RenderFacts& facts, const std::vector<std::string>& names, bool complete,
                   const CommonOptions& common) const;
 };
-
-void RenderCommand::declare(CLI::App& app) {
-  app.add_option("SCENE", scene, "scene file (.json), or the name of a shipped scene")->required();
-  std::string methods;
-  for (const Integrator& i : integrators())
-    methods += fmt::format("{}{}: {}", methods.empty() ? "" : "; ", i.name, i.summary);
-  app.add_option("-i,--integrator", integrator, methods + ". Default: the scene's, else path")
-      ->type_name("NAME");
-  app.add_option("--mis", mis, "how `path` weighs its two strategies: balance, power or max")
-      ->type_name("RULE");
-  app.add_option("--spp", spp, "samples per pixel (default: the scene's, else 64)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));
-  app.add_option("--time", time,
-                 "stop after this long, e.g. 60s or 10m; with --spp, whichever is first")
-      ->type_name("DURATION");
-  app.add_option("--seed", seed, "random seed (default 0)")->check(whole_number);
-  app.add_option("--size", size, "image size in pixels, e.g. 640x480 (default: the scene's)")
-      ->type_name("WxH");
-  app.add_option("--max-depth", max_depth,
-                 "longest path in segments, an emitter seen directly has 1 (default: the scene's, "
-                 "else unlimited)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xfffffffe}));
-  app.add_option(
-         "-o,--output", outputs,
-         "picture to write, type by suffix; repeatable (default: SCENE.exr and SCENE.png here)")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
-  app.add_option("--aov", aovs, "further EXR channels: variance (of each pixel's mean), samples")
-      ->type_name("LIST")
-      ->delimiter(',');
-  app.add_option("--device", device, "OpenCL device: index as in `devices`, or part of its name")
-      ->type_name("SPEC")
-      ->envname("PELLUCID_DEVICE");
-  app.add_option(
-         "--features", features,
-         "what kernels hold: auto (what the scene needs), all, or a list like +phong,+disks")
-      ->type_name("LIST");
-  app.add_option("--work-group", group,
-                 "work-items per group; changes speed, never the image (default 64)")
-      ->check(CLI::Range(1, 4096));
-  app.add_option("--kernel-dir", kernel_dir, "read kernels from this folder instead of the program")
-      ->type_name("DIR");
-  app.add_option("--stats", stats, "write statistics of the render as JSON")->type_name("FILE");
-  app.add_flag("--strict", strict, "device counters and warnings are errors");
-  app.add_flag("--deterministic", deterministic, "leave time, host and device out of the image");
-  app.footer("Example: pellucid render cornell-box --spp 128 -o box.exr -o box.png");
-}
-
-uint parse_mis(const std::string& text, const Integrator& method) {
-  if (text != "balance" && text != "power" && text != "max")
-    throw UsageError("--mis: '" + text + "' is none of balance, power, max." +
-                     did_you_mean(text, {"balance", "power", "max"}));
-  if (text != "balance" && !method.weighs)
-    throw UsageError("--mis " + text + " has no effect on '" + method.name +
-                     "', which combines nothing");
-  return text == "power" ? MIS_POWER : text == "max" ? MIS_MAX : MIS_BALANCE;
-}
-
-RenderOptions RenderCommand::options(const Scene& s, const Integrator& method) const {
-  constexpr std::uint64_t default_spp = 64;
-  RenderOptions o;
-  o.width = s.settings.width;
-  o.height = s.settings.height;
-  if (!time.empty()) o.seconds = parse_duration("--time", time);
-  if (spp) o.spp = spp;
-  if (!o.spp && !o.seconds) o.spp = s.settings.spp ? std::uint64_t(*s.settings.spp) : default_spp;
-  o.seed = seed;
-  if (max_depth) o.max_depth = uint(max_depth);
-  if (!max_depth && s.settings.max_depth) o.max_depth = uint(*s.settings.max_depth);
-  o.mis = parse_mis(mis, method);
-  o.plan.extra_features = parse_feature_request(features);
-  o.plan.kernel_dir = kernel_dir;
-  o.plan.group = group;
-  return o;
-}
-
-std::vector<std::string> RenderCommand::output_names(const Scene& s) const {
-  if (outputs.empty()) return {s.name + ".exr", s.name + ".png"};
-  check_picture_types(outputs);
-  return outputs;
-}
-
-void RenderCommand::check_aovs() const {
-  for (const std::string& aov : aovs)
-    if (aov != "variance" && aov != "samples")
-      throw UsageError("--aov: there is no '" + aov + "'; there are variance, samples." +
-                       did_you_mean(aov, {"variance", "samples"}));
-}
 
 /// Writes every output of a film; facts carry the evidence.
 void write_outputs(const std::vector<FilmPixel>& film, const std::vector<std::string>& names,
@@ -220,7 +113,7 @@ ExitCode RenderCommand::finish(const RenderFacts& facts, const std::vector<std::
 
 ExitCode RenderCommand::run(const CommonOptions& common) const {
   const Timer total;
-  check_aovs();
+  check();
   StopSignal stop;
   RenderFacts facts;
   Scene s = open_scene(scene);

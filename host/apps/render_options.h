@@ -1,0 +1,31 @@
+// The command line of `render`: every option, and what it means for a scene and a method.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/session.h"
+#include "scene/scene.h"
+
+namespace pellucid {
+
+/// Options as people write them. Precedence: flag, environment, scene, default.
+struct RenderFlags {
+  std::string scene, integrator, mis = "balance", time, size, device, features = "auto", kernel_dir,
+                                 stats;
+  std::vector<std::string> outputs, aovs;
+  std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0;
+  bool strict = false, deterministic = false;
+
+  void declare(CLI::App& app);
+  /// Throws UsageError for a value that no scene could make sense of.
+  void check() const;
+  /// What the session is told. Throws UsageError.
+  RenderOptions options(const Scene& scene, const Integrator& method) const;
+  /// Pictures to write; the default ones are named after the scene.
+  std::vector<std::string> output_names(const Scene& scene) const;
+};
+
+}  // namespace pellucid
