@@ -55,8 +55,8 @@ Session::Session(const Device& device, const PackedScene& scene, const Integrato
                  const RenderOptions& options)
     : options_(options), plan_(timed_plan(device, scene, integrator, options, kernel_seconds_)) {
   PELLUCID_CHECK(options_.spp || options_.seconds, "a render needs a budget");
-  launch_.width = uint(options_.width);
-  launch_.height = uint(options_.height);
+  launch_.width = launch_.tile_width = uint(options_.width);
+  launch_.height = launch_.tile_height = uint(options_.height);
   launch_.seed = hash_seed(options_.seed);
   launch_.max_depth = options_.max_depth.value_or(NONE);
   launch_.mis = options_.mis;

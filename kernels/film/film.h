@@ -90,10 +90,13 @@ INLINE ulong splat_steps(float value, float scale, __global uint* diag) {
   return convert_ulong_rte(steps);
 }
 
-/// Adds a contribution to any pixel of the film from any work-item.
+/// Adds a contribution to pixel (x, y) of the whole picture, if it lies in the tile, from any
+/// work-item.
 INLINE void film_splat(__global uint* splats, __global uint* diag, Launch launch, int x, int y,
                        float r, float g, float b) {
-  if (x < 0 || y < 0 || x >= (int)launch.width || y >= (int)launch.height) {
+  x -= (int)launch.tile_x;
+  y -= (int)launch.tile_y;
+  if (x < 0 || y < 0 || x >= (int)launch.tile_width || y >= (int)launch.tile_height) {
     atomic_inc(&diag[DIAG_splat_outside]);
     return;
   }
@@ -105,7 +108,7 @@ INLINE void film_splat(__global uint* splats, __global uint* diag, Launch launch
     atomic_inc(&diag[DIAG_negative]);
     return;
   }
-  __global uint* word = splats + ((size_t)y * launch.width + (size_t)x) * 6;
+  __global uint* word = splats + ((size_t)y * launch.tile_width + (size_t)x) * 6;
   splat_word(word, splat_steps(r, launch.splat_scale, diag));
   splat_word(word + 2, splat_steps(g, launch.splat_scale, diag));
   splat_word(word + 4, splat_steps(b, launch.splat_scale, diag));

@@ -10,7 +10,7 @@ __kernel void film_add(FILM_PARAMS
 #endif
                                DIAG_PARAMS const Launch launch) {
   uint pixel = (uint)get_global_id(0);
-  if (pixel >= launch.width * launch.height) return;
+  if (pixel >= launch.tile_width * launch.tile_height) return;
   F4 sample = samples[pixel];
 #if INTG_SPLAT
   __global uint* word = splats + (size_t)pixel * 6;

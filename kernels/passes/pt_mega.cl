@@ -7,16 +7,17 @@
 
 __kernel void pt_mega(SCENE_PARAMS FILM_PARAMS DIAG_PARAMS const Launch launch) {
   uint pixel = (uint)get_global_id(0);
-  if (pixel >= launch.width * launch.height) return;
+  if (pixel >= launch.tile_width * launch.tile_height) return;
   SCENE_FROM_PARAMS
+  uint column = launch.tile_x + pixel % launch.tile_width;
+  uint row = launch.tile_y + pixel / launch.tile_width;
   Rng rng;
-  rng.path = pixel;
+  rng.path = row * launch.width + column;  // of the whole picture: a crop has the same numbers
   rng.iteration = launch.iteration;
   rng.seed = launch.seed;
   Random4 u = rng4(rng, DIM_PIXEL);
-  real x = (real)(pixel % launch.width) + u.x;
-  real y = (real)(pixel / launch.width) + u.y;
   uint rays;
-  real3 radiance = path_radiance(&scene_data, launch, rng, camera_ray(camera, x, y), &rays);
+  Ray ray = camera_ray(camera, (real)column + u.x, (real)row + u.y);
+  real3 radiance = path_radiance(&scene_data, launch, rng, ray, &rays);
   samples[pixel] = (float4)(radiance.x, radiance.y, radiance.z, (float)rays);
 }

@@ -130,15 +130,17 @@ LAYOUT_CHECK(Camera, 80);
 #define MIS_MAX 2u
 /// What one launch of an iteration is told. Written by render.
 typedef struct Launch {
-  uint width, height;  // pixels
-  uint iteration;      // global pass number, from 0
-  uint seed;           // hashed user seed
-  uint max_depth;      // segments; an emitter seen directly has 1
-  uint mis;            // MIS_*
-  float splat_scale;   // fixed-point steps per unit of radiance, a power of two
+  uint width, height;            // of the whole picture, pixels
+  uint tile_x, tile_y;           // first column and row of the pixels that this launch is about
+  uint tile_width, tile_height;  // its extent; buffers of pixels hold the tile, row by row
+  uint iteration;                // global pass number, from 0
+  uint seed;                     // hashed user seed
+  uint max_depth;                // segments; an emitter seen directly has 1
+  uint mis;                      // MIS_*
+  float splat_scale;             // fixed-point steps per unit of radiance, a power of two
   uint pad0;
 } Launch;
-LAYOUT_CHECK(Launch, 32);
+LAYOUT_CHECK(Launch, 48);
 
 /// Accumulators of one pixel: each sum as high + low float, so that it neither stalls nor needs
 /// fp64. Written by film_add.

@@ -49,7 +49,7 @@ struct SplatRun {
     const Buffer input = device.create_buffer("values", values.size() * sizeof(F4), values.data());
     const uint n = static_cast<uint>(values.size());
     Launch launch{};
-    launch.width = launch.height = film_side;
+    launch.width = launch.height = launch.tile_width = launch.tile_height = film_side;
     launch.splat_scale = splat_scale;
     splat.set_buffer(0, words), splat.set_buffer(1, diag), splat.set_buffer(2, input);
     splat.set_bytes(3, &n, sizeof n), splat.set_bytes(4, &launch, sizeof launch);

@@ -137,8 +137,8 @@ void Renderer::check_counters() {
 Picture Renderer::render(const Sampling& run) {
   constexpr std::uint64_t queue_length = 1024;
   Launch launch{};
-  launch.width = uint(build_.width);
-  launch.height = uint(build_.height);
+  launch.width = launch.tile_width = uint(build_.width);
+  launch.height = launch.tile_height = uint(build_.height);
   launch.seed = uint(run.seed) * 2654435769u + 12345u;  // any spread will do
   launch.max_depth = run.max_depth.value_or(NONE);
   launch.mis = run.mis;
