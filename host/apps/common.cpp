@@ -99,6 +99,55 @@ std::pair<int, int> parse_size(std::string_view option, const std::string& text)
   return size;
 }
 
+Window parse_crop(std::string_view option, const std::string& text, int width, int height) {
+  const char* accepted = "pixels x0,x1,y0,y1 with x0 < x1 and y0 < y1, such as 0,128,64,128";
+  const char *at = text.data(), *const end = at + text.size();
+  int edges[4];
+  for (int i = 0; i < 4; ++i) {
+    if (i > 0 && (at == end || *at++ != ',')) refuse(option, text, accepted);
+    const auto result = std::from_chars(at, end, edges[i]);
+    if (result.ec != std::errc()) refuse(option, text, accepted);
+    at = result.ptr;
+  }
+  const auto [x0, x1, y0, y1] = edges;
+  if (at != end || x0 >= x1 || y0 >= y1) refuse(option, text, accepted);
+  if (x0 < 0 || y0 < 0 || x1 > width || y1 > height)
+    throw UsageError(
+        fmt::format("{} {} reaches outside the picture of {}x{}", option, text, width, height));
+  return {x0, y0, x1 - x0, y1 - y0};
+}
+
+PassRange parse_passes(std::string_view option, const std::string& text) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 32;
+  const char* accepted = "a range A:B of passes with A < B, such as 0:64";
+  PassRange range;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, range.first);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != ':')
+    refuse(option, text, accepted);
+  const auto last = std::from_chars(first.ptr + 1, end, range.last);
+  if (last.ec != std::errc() || last.ptr != end || range.first >= range.last || range.last > most)
+    refuse(option, text, accepted);
+  return range;
+}
+
+std::uint64_t parse_bytes(std::string_view option, const std::string& text) {
+  const char* accepted = "a number of bytes such as 2G, 512M or 1000000";
+  std::string_view rest = text;
+  double value = 0;
+  if (!take_number(rest, value) || value <= 0) refuse(option, text, accepted);
+  if (!rest.empty() && rest != "B") {
+    const std::size_t power = std::string_view("KMGT").find(char(std::toupper(rest[0])));
+    rest.remove_prefix(1);
+    if (power == std::string_view::npos || !(rest.empty() || rest == "B" || rest == "iB"))
+      refuse(option, text, accepted);
+    value *= std::pow(1024.0, double(power + 1));
+  }
+  constexpr double most = 1e18;
+  if (value < 1 || value > most) refuse(option, text, accepted);
+  return std::uint64_t(value);
+}
+
 void print_result(std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!written || std::fflush(stdout) != 0)

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "render/film.h"
+
 namespace pellucid {
 
 /// All parsers name `option` in the UsageError they throw, say what is accepted, and take the whole
@@ -20,6 +22,13 @@ double parse_fraction(std::string_view option, const std::string& text);
 double parse_duration(std::string_view option, const std::string& text);
 /// Width and height in pixels from "640x480", within the limits of a film.
 std::pair<int, int> parse_size(std::string_view option, const std::string& text);
+
+/// Pixels "x0,x1,y0,y1", half-open, of a picture of that size.
+Window parse_crop(std::string_view option, const std::string& text, int width, int height);
+/// Global passes "A:B", A < B <= 2^32.
+PassRange parse_passes(std::string_view option, const std::string& text);
+/// Bytes from "2G", "512M", "1.5GiB", "1000000"; suffixes are powers of 1024; positive.
+std::uint64_t parse_bytes(std::string_view option, const std::string& text);
 
 /// Writes to stdout at once. Throws OutputError if it is full or closed.
 void print_result(std::string_view text);

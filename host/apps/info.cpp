@@ -10,6 +10,7 @@
 #include "image/image.h"
 #include "integrators/reach.h"
 #include "integrators/registry.h"
+#include "render/memory.h"
 #include "render/plan.h"
 
 namespace pellucid {
@@ -58,7 +59,7 @@ nlohmann::json scene_document(const Scene& scene, const PackedScene& packed,
                             {"kernels", kernels}};
   }
   const std::size_t pixels = std::size_t(scene.settings.width) * std::size_t(scene.settings.height);
-  const auto memory = plan_memory(packed, choose_integrator("", scene), pixels);
+  const auto memory = buffer_sizes(packed, choose_integrator("", scene), pixels);
   const bvh::Statistics& b = packed.bvh;
   return {{"file", scene.path},
           {"name", scene.name},

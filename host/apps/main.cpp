@@ -20,6 +20,7 @@
   X(info, "what is in a scene or an image")                                  \
   X(compare, "error of image A against reference B, with gates for scripts") \
   X(bench, "speed of this device, beside Embree where present")              \
+  X(merge, "checkpoints of disjoint passes to one picture")                  \
   X(kernels, "the specialised programs for a scene and method")
 
 namespace pellucid {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <future>
 #include <nlohmann/json.hpp>
 
@@ -22,155 +23,212 @@
 namespace pellucid {
 namespace {
 
-struct RenderCommand : RenderFlags {
-  ExitCode run(const CommonOptions& common) const;
+/// A render under way, and all that has to be kept of it.
+class RenderJob {
+ public:
+  RenderJob(const RenderFlags& flags, const CommonOptions& common)
+      : flags_(flags), common_(common) {}
+  ExitCode run();
 
  private:
-  void check_outputs(const std::vector<std::string>& names, const CommonOptions& common) const;
-  Device open_device(RenderFacts& facts) const;
-  ExitCode finish(const RenderFacts& facts, const std::vector<std::string>& names, bool complete,
-                  const CommonOptions& common) const;
+  void check_outputs() const;
+  void prepare();
+  std::optional<Film> resumed_film();
+  bool render(Session& session);
+  void write(const Film& film, bool pictures);
+  void write_pictures_of(const Film& film);
+  void write_checkpoint_of(const Film& film);
+  ExitCode finish(bool complete);
+
+  const RenderFlags& flags_;
+  const CommonOptions& common_;
+  Timer total_;
+  StopSignal stop_;
+  Scene scene_;
+  RenderFacts facts_;
+  std::vector<std::string> names_;
+  std::optional<Checkpoint> earlier_;  ///< what --resume found, without its film
 };
 
-/// Writes every output of a film; facts carry the evidence.
-void write_outputs(const std::vector<FilmPixel>& film, const std::vector<std::string>& names,
-                   const std::vector<std::string>& aovs, bool deterministic,
-                   const RenderFacts& facts) {
-  const auto asked = [&](const char* aov) {
-    return std::find(aovs.begin(), aovs.end(), aov) != aovs.end();
-  };
-  Image image = film_image(film, facts.options.width, facts.options.height, asked("variance"),
-                           asked("samples"));
-  add_evidence(facts, deterministic, image);
-  write_pictures(names, image);
+/// What cannot be written must show before the render, not after it.
+void RenderJob::check_outputs() const {
+  for (const std::string& name : names_) check_writable(name);
+  for (const std::string& name : {flags_.stats, flags_.checkpoint})
+    if (!name.empty()) check_writable(name);
+  if (!common_.json.empty() && common_.json != "-") check_writable(common_.json);
 }
 
-void log_result(const RenderFacts& f) {
+/// Loads the scene and settles what will be rendered.
+void RenderJob::prepare() {
+  flags_.check();
+  scene_ = open_scene(flags_.scene);
+  if (!flags_.size.empty())
+    std::tie(scene_.settings.width, scene_.settings.height) = parse_size("--size", flags_.size);
+  facts_.scene = &scene_;
+  facts_.integrator = &choose_integrator(flags_.integrator, scene_);
+  facts_.options = flags_.options(scene_, *facts_.integrator);
+  names_ = flags_.output_names(scene_);
+  if (flags_.strict && !scene_.warnings.empty())
+    throw InputError("--strict: the warnings above are errors");
+  facts_.scene_hash = scene_hash(scene_);
+  facts_.kernels_hash = kernels_hash(flags_.kernel_dir);
+  check_outputs();
+}
+
+/// The film of the checkpoint that --resume names, if it is there.
+std::optional<Film> RenderJob::resumed_film() {
+  if (flags_.checkpoint.empty() || !std::filesystem::exists(flags_.checkpoint)) {
+    if (flags_.resume) log_info("'{}' does not exist yet: a new render", flags_.checkpoint);
+    return std::nullopt;
+  }
+  if (!flags_.resume)
+    throw UsageError(fmt::format(
+        "--checkpoint: '{}' exists; go on with it by --resume, or remove it", flags_.checkpoint));
+  earlier_ = read_checkpoint(flags_.checkpoint);
+  const std::string what = difference(earlier_->identity, identity(facts_));
+  if (!what.empty())
+    throw InputError(fmt::format("checkpoint '{}' (the one) is not of this render (the other): {}",
+                                 flags_.checkpoint, what));
+  log_info("going on with '{}', which has passes {}", flags_.checkpoint,
+           earlier_->film.passes.text());
+  return std::move(earlier_->film);
+}
+
+void RenderJob::write_pictures_of(const Film& film) {
+  const auto asked = [&](const char* aov) {
+    return std::find(flags_.aovs.begin(), flags_.aovs.end(), aov) != flags_.aovs.end();
+  };
+  Image image = film_image(film, asked("variance"), asked("samples"));
+  image.metadata = lasting_evidence(facts_);
+  add_progress(film, facts_.film, facts_.session->counters(), facts_.seconds.render,
+               image.metadata);
+  if (flags_.deterministic) make_deterministic(image.metadata);
+  write_pictures(names_, image);
+}
+
+void RenderJob::write_checkpoint_of(const Film& film) {
+  Checkpoint checkpoint{film,
+                        identity(facts_),
+                        lasting_evidence(facts_),
+                        facts_.session->counters(),
+                        facts_.seconds.render,
+                        {}};
+  write_checkpoint(flags_.checkpoint, checkpoint);
+}
+
+/// Writes the checkpoint and, if wanted, the pictures; if one fails, the other is still written.
+void RenderJob::write(const Film& film, bool pictures) {
+  facts_.film = summarise(film);
+  facts_.seconds.render = facts_.session->render_seconds() + (earlier_ ? earlier_->seconds : 0.0);
+  std::exception_ptr first;
+  try {
+    if (!flags_.checkpoint.empty()) write_checkpoint_of(film);
+  } catch (const OutputError&) {
+    first = std::current_exception();
+  }
+  if (pictures) write_pictures_of(film);
+  if (first) std::rethrow_exception(first);
+}
+
+/// Renders with progress and signals; false if stopped early. Writes the picture on SIGUSR1 and the
+/// checkpoint from time to time.
+bool RenderJob::render(Session& session) {
+  Progress progress(fmt::format("{} on {}", facts_.integrator->name, facts_.device->spec()));
+  const double period = flags_.checkpoint_period();
+  Timer since_checkpoint;
+  bool picture = false;
+  RenderHooks hooks;
+  hooks.stop = [&] { return stop_.stop_requested(); };
+  hooks.progress = [&](const std::string& text) { progress.update(text); };
+  hooks.wants_film = [&] {
+    picture = stop_.take_write_request();
+    return picture || (!flags_.checkpoint.empty() && since_checkpoint.seconds() >= period);
+  };
+  hooks.film = [&](const Film& film) {
+    try {
+      write(film, picture);
+      if (picture) log_info("the image so far is written");
+    } catch (const OutputError& e) {  // the render is worth more than this look at it
+      log_warn("{}; the render goes on", e.what());
+    }
+    since_checkpoint = Timer();
+  };
+  return session.run(hooks);
+}
+
+ExitCode RenderJob::finish(bool complete) {
+  const RenderFacts& f = facts_;
+  const double paths = double(f.film.iterations) * double(f.options.window().pixels());
   log_info("{} spp of {}x{} by {} in {}: {:.2f} Mpaths/s, {:.2f} Mrays/s{}", f.film.iterations,
-           f.options.width, f.options.height, f.integrator->name, format_seconds(f.seconds.render),
-           1e-6 * double(f.film.iterations) * f.options.width * f.options.height / f.seconds.render,
+           f.options.window().width, f.options.window().height, f.integrator->name,
+           format_seconds(f.seconds.render), 1e-6 * paths / f.seconds.render,
            1e-6 * double(f.film.rays) / f.seconds.render,
            std::isfinite(f.film.relmse)
                ? fmt::format(", noise about {:.2g} %", 100 * std::sqrt(f.film.relmse))
                : "");
   const std::string counters = describe_counters(f.session->counters());
   if (!counters.empty()) log_warn("device counters: {}", counters);
-}
-
-/// Renders with progress and signals; false if stopped early. Writes the image on SIGUSR1.
-bool render_with_progress(Session& session, StopSignal& stop, const std::string& title,
-                          const std::function<void(const std::vector<FilmPixel>&)>& write) {
-  Progress progress(title);
-  RenderHooks hooks;
-  hooks.stop = [&] { return stop.stop_requested(); };
-  hooks.progress = [&](const std::string& text) { progress.update(text); };
-  hooks.wants_image = [&] { return stop.take_write_request(); };
-  hooks.image = [&](const std::vector<FilmPixel>& film) {
-    try {
-      write(film);
-      log_info("the image so far is written");
-    } catch (const OutputError& e) {  // the render is worth more than this look at it
-      log_warn("{}; the render goes on", e.what());
-    }
-  };
-  return session.run(hooks);
-}
-
-/// What cannot be written must show before the render, not after it.
-void RenderCommand::check_outputs(const std::vector<std::string>& names,
-                                  const CommonOptions& common) const {
-  for (const std::string& name : names) check_writable(name);
-  if (!stats.empty()) check_writable(stats);
-  if (!common.json.empty() && common.json != "-") check_writable(common.json);
-}
-
-/// The device, if the film fits into it, and what it decides about the options.
-Device RenderCommand::open_device(RenderFacts& facts) const {
-  Device target = Device::open(device);
-  RenderOptions& o = facts.options;
-  const std::size_t pixels = std::size_t(o.width) * std::size_t(o.height);
-  check_memory(target.info(), plan_memory({}, *facts.integrator, pixels));
-  return target;
-}
-
-ExitCode RenderCommand::finish(const RenderFacts& facts, const std::vector<std::string>& names,
-                               bool complete, const CommonOptions& common) const {
-  log_result(facts);
   if (!complete) log_warn("stopped early; what was rendered is written");
-  for (const std::string& what : unreachable_paths(*facts.integrator, facts.packed->features))
-    log_info("'{}' cannot see {}", facts.integrator->name, what);
-  nlohmann::json document = render_stats(facts);
-  document["outputs"] = names;
+  for (const std::string& what : unreachable_paths(*f.integrator, f.packed->features))
+    log_info("'{}' cannot see {}", f.integrator->name, what);
+  nlohmann::json document = render_stats(f);
+  document["outputs"] = names_;
   document["complete"] = complete;
-  write_json(stats, document);
-  write_json(common.json, document);
-  if (common.wants_text())
-    for (const std::string& name : names) print_result(name + "\n");
-  if (strict && error_count(facts.session->counters()) > 0)
-    throw NumericError("--strict: " + describe_counters(facts.session->counters()));
+  write_json(flags_.stats, document);
+  write_json(common_.json, document);
+  if (common_.wants_text())
+    for (const std::string& name : names_) print_result(name + "\n");
+  if (flags_.strict && error_count(f.session->counters()) > 0)
+    throw NumericError("--strict: " + counters);
   return complete ? ExitCode::done : ExitCode::stopped;
 }
 
-ExitCode RenderCommand::run(const CommonOptions& common) const {
-  const Timer total;
-  check();
-  StopSignal stop;
-  RenderFacts facts;
-  Scene s = open_scene(scene);
-  if (!size.empty()) std::tie(s.settings.width, s.settings.height) = parse_size("--size", size);
-  const Integrator& method = choose_integrator(integrator, s);
-  facts.options = options(s, method);
-  const std::vector<std::string> names = output_names(s);
-  if (strict && !s.warnings.empty()) throw InputError("--strict: the warnings above are errors");
-  facts.scene = &s;
-  facts.integrator = &method;
-  facts.scene_hash = scene_hash(s);
-  check_outputs(names, common);
+ExitCode RenderJob::run() {
+  prepare();
+  std::optional<Film> start = resumed_film();
   // A broken installation must show before the render, not after it; loading takes as long as
   // opening the device and finding kernels in the cache, so it goes on beside them.
   std::future<void> image_library = std::async(std::launch::async, load_image_library);
-  const Device target = open_device(facts);
-  facts.device = &target.info();
-  facts.seconds.load = total.seconds();
+  const Device target = Device::open(flags_.device);
+  // Building a BVH is wasted time if not even the film fits.
+  plan_memory(target.info(), {}, *facts_.integrator, facts_.options.window(),
+              facts_.options.memory);
+  facts_.device = &target.info();
+  facts_.seconds.load = total_.seconds();
 
   Timer phase;
   const PackedScene packed = [&] {
     Progress progress("building BVH");
-    return pack_scene(s, {simd_width_for(target.info())});
+    return pack_scene(scene_, {simd_width_for(target.info())});
   }();
-  facts.packed = &packed;
-  facts.seconds.bvh = phase.seconds();
+  facts_.packed = &packed;
+  facts_.seconds.bvh = phase.seconds();
   auto session = [&] {
     Progress progress("building kernels");
-    return Session(target, packed, method, facts.options);
+    return Session(target, packed, *facts_.integrator, facts_.options, std::move(start));
   }();
-  facts.session = &session;
-  stop.reinstall();
-  facts.seconds.kernels = session.kernel_seconds();
+  facts_.session = &session;
+  if (earlier_) session.add_counters(earlier_->counters);
+  stop_.reinstall();
+  facts_.seconds.kernels = session.kernel_seconds();
   phase = Timer();
   image_library.get();
-  facts.seconds.load += phase.seconds();
+  facts_.seconds.load += phase.seconds();
 
-  const auto write = [&](const std::vector<FilmPixel>& film) {
-    facts.film = summarise(film);
-    facts.seconds.render = session.render_seconds();
-    write_outputs(film, names, aovs, deterministic, facts);
-  };
-  const std::string title = fmt::format("{} on {}", method.name, target.info().spec());
-  const bool complete = render_with_progress(session, stop, title, write);
+  const bool complete = render(session);
   phase = Timer();
-  write(session.film());
-  facts.seconds.write = phase.seconds();
-  facts.seconds.total = total.seconds();
-  return finish(facts, names, complete, common);
+  write(session.film(), true);
+  facts_.seconds.write = phase.seconds();
+  facts_.seconds.total = total_.seconds();
+  return finish(complete);
 }
 
 }  // namespace
 
 CommandRun setup_render(CLI::App& app) {
-  auto command = std::make_shared<RenderCommand>();
-  command->declare(app);
-  return [command](const CommonOptions& common) { return command->run(common); };
+  auto flags = std::make_shared<RenderFlags>();
+  flags->declare(app);
+  return [flags](const CommonOptions& common) { return RenderJob(*flags, common).run(); };
 }
 
 }  // namespace pellucid

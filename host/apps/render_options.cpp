@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <optional>
 
 #include "apps/common.h"
 #include "apps/outputs.h"
@@ -33,6 +34,21 @@ uint parse_mis(const std::string& text, const Integrator& method) {
   return text == "power" ? MIS_POWER : text == "max" ? MIS_MAX : MIS_BALANCE;
 }
 
+/// Passes to have in the end; none where only the time ends the render.
+std::optional<PassRange> pass_range(const RenderFlags& flags, const Scene& scene) {
+  constexpr std::uint64_t default_spp = 64;
+  if (!flags.passes.empty()) {
+    const PassRange range = parse_passes("--passes", flags.passes);
+    if (flags.spp && range.last > flags.spp)
+      throw UsageError(
+          fmt::format("--passes {} goes beyond the {} passes of --spp", flags.passes, flags.spp));
+    return range;
+  }
+  if (flags.spp) return PassRange{0, flags.spp};
+  if (!flags.time.empty()) return std::nullopt;
+  return PassRange{0, scene.settings.spp ? std::uint64_t(*scene.settings.spp) : default_spp};
+}
+
 }  // namespace
 
 void RenderFlags::declare(CLI::App& app) {
@@ -52,6 +68,9 @@ void RenderFlags::declare(CLI::App& app) {
   app.add_option("--seed", seed, "random seed (default 0)")->check(whole_number);
   app.add_option("--size", size, "image size in pixels, e.g. 640x480 (default: the scene's)")
       ->type_name("WxH");
+  app.add_option("--crop", crop,
+                 "render only these pixels: x0,x1,y0,y1, half-open, from the top left")
+      ->type_name("X0,X1,Y0,Y1");
   app.add_option("--max-depth", max_depth,
                  "longest path in segments, an emitter seen directly has 1 (default: the scene's, "
                  "else unlimited)")
@@ -64,6 +83,19 @@ void RenderFlags::declare(CLI::App& app) {
   app.add_option("--aov", aovs, "further EXR channels: variance (of each pixel's mean), samples")
       ->type_name("LIST")
       ->delimiter(',');
+  app.add_option(
+         "--checkpoint", checkpoint,
+         "keep the render in this file, to go on with (--resume) or to merge; written at the "
+         "end and as --every says")
+      ->type_name("FILE");
+  app.add_option("--every", every, "time between two checkpoints (default 60s)")
+      ->type_name("DURATION");
+  app.add_flag("--resume", resume, "go on with the checkpoint, if it exists");
+  app.add_option(
+         "--passes", passes,
+         "render the global passes A to B-1 only, so that several runs share the work of one "
+         "(see `merge`); a pass is one sample per pixel")
+      ->type_name("A:B");
   app.add_option("--device", device, "OpenCL device: index as in `devices`, or part of its name")
       ->type_name("SPEC")
       ->envname("PELLUCID_DEVICE");
@@ -74,6 +106,9 @@ void RenderFlags::declare(CLI::App& app) {
   app.add_option("--work-group", group,
                  "work-items per group; changes speed, never the image (default 64)")
       ->check(CLI::Range(1, 4096));
+  app.add_option("--memory", memory,
+                 "most device memory to use, e.g. 2G; larger pictures are rendered in bands")
+      ->type_name("BYTES");
   app.add_option("--kernel-dir", kernel_dir, "read kernels from this folder instead of the program")
       ->type_name("DIR");
   app.add_option("--stats", stats, "write statistics of the render as JSON")->type_name("FILE");
@@ -83,13 +118,13 @@ void RenderFlags::declare(CLI::App& app) {
 }
 
 RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) const {
-  constexpr std::uint64_t default_spp = 64;
   RenderOptions o;
   o.width = s.settings.width;
   o.height = s.settings.height;
   if (!time.empty()) o.seconds = parse_duration("--time", time);
-  if (spp) o.spp = spp;
-  if (!o.spp && !o.seconds) o.spp = s.settings.spp ? std::uint64_t(*s.settings.spp) : default_spp;
+  o.passes = pass_range(*this, s);
+  if (!crop.empty()) o.crop = parse_crop("--crop", crop, o.width, o.height);
+  if (!memory.empty()) o.memory = parse_bytes("--memory", memory);
   o.seed = seed;
   if (max_depth) o.max_depth = uint(max_depth);
   if (!max_depth && s.settings.max_depth) o.max_depth = uint(*s.settings.max_depth);
@@ -106,7 +141,13 @@ std::vector<std::string> RenderFlags::output_names(const Scene& s) const {
   return outputs;
 }
 
+double RenderFlags::checkpoint_period() const {
+  return parse_duration("--every", every);
+}
+
 void RenderFlags::check() const {
+  if (checkpoint.empty() && resume) throw UsageError("--resume needs --checkpoint FILE beside it");
+  parse_duration("--every", every);
   for (const std::string& aov : aovs)
     if (aov != "variance" && aov != "samples")
       throw UsageError("--aov: there is no '" + aov + "'; there are variance, samples." +

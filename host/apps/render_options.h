@@ -13,17 +13,20 @@ namespace pellucid {
 
 /// Options as people write them. Precedence: flag, environment, scene, default.
 struct RenderFlags {
-  std::string scene, integrator, mis = "balance", time, size, device, features = "auto", kernel_dir,
-                                 stats;
+  std::string scene, integrator, mis = "balance", time, size, crop, passes, device,
+                                 features = "auto", kernel_dir, stats, memory, checkpoint,
+                                 every = "60s";
   std::vector<std::string> outputs, aovs;
   std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0;
-  bool strict = false, deterministic = false;
+  bool strict = false, deterministic = false, resume = false;
 
   void declare(CLI::App& app);
   /// Throws UsageError for a value that no scene could make sense of.
   void check() const;
   /// What the session is told. Throws UsageError.
   RenderOptions options(const Scene& scene, const Integrator& method) const;
+  /// Seconds between two checkpoints.
+  double checkpoint_period() const;
   /// Pictures to write; the default ones are named after the scene.
   std::vector<std::string> output_names(const Scene& scene) const;
 };

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <climits>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -47,6 +49,14 @@ std::vector<float> row_vector_matrix(const glm::dmat4& m) {
   return out;
 }
 
+/// Everything that changes what is rendered and is no matter of effort.
+std::string settings_text(const RenderOptions& o) {
+  const Window w = o.window();
+  return fmt::format("{}x{} crop {},{},{},{} max-depth {} mis {} filter box sampler random",
+                     o.width, o.height, w.x0, w.x0 + w.width, w.y0, w.y0 + w.height,
+                     o.max_depth ? std::to_string(*o.max_depth) : "unlimited", mis_name(o.mis));
+}
+
 std::string counters_text(const std::vector<Counter>& counters) {
   const std::string text = describe_counters(counters);
   return text.empty() ? "all zero" : text;
@@ -54,32 +64,46 @@ std::string counters_text(const std::vector<Counter>& counters) {
 
 }  // namespace
 
-void add_evidence(const RenderFacts& f, bool deterministic, Image& image) {
-  auto& meta = image.metadata;
+Evidence lasting_evidence(const RenderFacts& f) {
+  Evidence meta;
   const Camera& camera = f.scene->camera;
   const glm::dmat4 to_camera = world_to_camera(camera);
-  meta["samplesPerPixel"] = int(f.film.iterations);
   meta["worldToCamera"] = row_vector_matrix(to_camera);
   meta["worldToNDC"] = row_vector_matrix(
       camera_to_ndc(f.packed->camera, f.options.width, f.options.height) * to_camera);
   meta["pellucid:version"] = std::string(version()) + " " + commit();
   meta["pellucid:scene"] = f.scene->name;
   meta["pellucid:sceneHash"] = f.scene_hash;
-  meta["pellucid:settings"] = fmt::format(
-      "{}x{} max-depth {} mis {} filter box sampler random", f.options.width, f.options.height,
-      f.options.max_depth ? std::to_string(*f.options.max_depth) : "unlimited",
-      mis_name(f.options.mis));
+  meta["pellucid:settings"] = settings_text(f.options);
   meta["pellucid:integrator"] = f.integrator->name;
   meta["pellucid:seed"] = std::to_string(f.options.seed);
-  meta["pellucid:passes"] = fmt::format("0:{}", f.film.iterations);
   meta["pellucid:features"] = f.session->plan().specialisation().features.describe();
   meta["pellucid:floatMode"] = std::string("strict");
-  meta["pellucid:counters"] = counters_text(f.session->counters());
-  if (std::isfinite(f.film.relmse)) meta["pellucid:relmseEstimate"] = float(f.film.relmse);
-  if (deterministic) return;
-  meta["renderTimeSeconds"] = float(f.seconds.render);
   meta["pellucid:device"] = f.device->name;
   meta["pellucid:driver"] = f.device->platform_name + " " + f.device->driver;
+  return meta;
+}
+
+void add_progress(const Film& film, const FilmSummary& summary,
+                  const std::vector<Counter>& counters, double seconds, Evidence& meta) {
+  meta["samplesPerPixel"] = int(std::min<std::uint64_t>(film.passes.count(), INT_MAX));
+  meta["pellucid:passes"] = film.passes.text();
+  meta["pellucid:counters"] = counters_text(counters);
+  if (std::isfinite(summary.relmse)) meta["pellucid:relmseEstimate"] = float(summary.relmse);
+  meta["renderTimeSeconds"] = float(seconds);
+}
+
+void make_deterministic(Evidence& evidence) {
+  for (const char* name : {"renderTimeSeconds", "pellucid:device", "pellucid:driver"})
+    evidence.erase(name);
+}
+
+std::map<std::string, std::string> identity(const RenderFacts& f) {
+  return {{"scene", f.scene_hash},
+          {"kernels", f.kernels_hash},
+          {"settings", settings_text(f.options)},
+          {"integrator", f.integrator->name},
+          {"seed", std::to_string(f.options.seed)}};
 }
 
 nlohmann::json render_stats(const RenderFacts& f) {
@@ -94,7 +118,7 @@ nlohmann::json render_stats(const RenderFacts& f) {
   for (const PassState& p : f.session->plan().passes())
     passes.push_back(
         {{"name", p.pass.name}, {"seconds", p.time.seconds}, {"launches", p.time.launches}});
-  const double pixels = double(f.options.width) * f.options.height;
+  const double pixels = double(f.options.window().pixels());
   return {{"scene", f.scene->name},
           {"scene_hash", f.scene_hash},
           {"integrator", f.integrator->name},
@@ -116,6 +140,8 @@ nlohmann::json render_stats(const RenderFacts& f) {
           {"features", features},
           {"counters", counters},
           {"memory_bytes", f.session->plan().memory()},
+          {"film_bytes", f.session->memory().film_bytes},
+          {"tiles", f.session->memory().tiles.size()},
           // One standard error of the estimate is not known yet, so no confidence is claimed.
           {"error_estimate", {{"relmse", f.film.relmse}, {"confidence", nullptr}}},
           {"device", f.device->name},

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cl/device.h"
+#include "render/checkpoint.h"
 #include "render/session.h"
 #include "scene/scene.h"
 
@@ -23,14 +24,26 @@ struct RenderFacts {
   const DeviceInfo* device = nullptr;
   const Session* session = nullptr;
   RenderOptions options;
-  std::string scene_hash;
+  std::string scene_hash, kernels_hash;
   FilmSummary film;
   RenderSeconds seconds;
 };
 
-/// EXR attributes: samplesPerPixel, worldToCamera, ... and pellucid:*. `deterministic` leaves out
-/// time, host and device.
-void add_evidence(const RenderFacts& facts, bool deterministic, Image& image);
+using Evidence = std::map<std::string, MetaValue>;
+
+/// EXR attributes that do not change while a render goes on: worldToCamera, ... and pellucid:*.
+Evidence lasting_evidence(const RenderFacts& facts);
+
+/// Those that tell what a film is made of: samplesPerPixel, pellucid:passes, counters, error,
+/// renderTimeSeconds.
+void add_progress(const Film& film, const FilmSummary& summary,
+                  const std::vector<Counter>& counters, double seconds, Evidence& evidence);
+
+/// Takes out time, host and device, for files that must be the same wherever they are made.
+void make_deterministic(Evidence& evidence);
+
+/// What must agree for checkpoints to be of the same picture.
+std::map<std::string, std::string> identity(const RenderFacts& facts);
 
 /// The document of --stats and --json.
 nlohmann::json render_stats(const RenderFacts& facts);

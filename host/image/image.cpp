@@ -61,7 +61,11 @@ void load_image_library() {
   plugin();
 }
 
-Image read_image(const std::string& path, bool linearise) {
+namespace {
+
+/// `read` is the plugin's own; what a file may be at all is found out before.
+template <typename Read>
+void read_file(const std::string& path, const Read& read) {
   const auto fail = [&](const std::string& reason) {
     throw InputError(fmt::format("cannot read image '{}': {}", path, reason));
   };
@@ -69,9 +73,28 @@ Image read_image(const std::string& path, bool linearise) {
   if (stat(path.c_str(), &info) != 0) fail(system_reason(errno));
   if (S_ISDIR(info.st_mode)) fail(system_reason(EISDIR));
   if (info.st_size == 0 && S_ISREG(info.st_mode)) fail("the file is empty");
-  Image image;
-  const std::string reason = plugin().read(path, linearise, image);
+  const std::string reason = read();
   if (!reason.empty()) fail(reason);
+}
+
+template <typename Write>
+void write_file(const std::string& path, const Write& write) {
+  AtomicFile file(path);
+  std::string reason = write(file.temporary());
+  if (!reason.empty()) {
+    // The library names the file it was given; the user knows it by another name.
+    const std::size_t at = reason.find(file.temporary());
+    if (at != std::string::npos) reason.replace(at, file.temporary().size(), path);
+    throw OutputError(fmt::format("cannot write image '{}': {}", path, reason));
+  }
+  file.commit();
+}
+
+}  // namespace
+
+Image read_image(const std::string& path, bool linearise) {
+  Image image;
+  read_file(path, [&] { return plugin().read(path, linearise, image); });
   return image;
 }
 
@@ -80,15 +103,21 @@ void write_image(const std::string& path, const Image& image) {
       std::size_t(image.width) * std::size_t(image.height) * image.channels.size();
   PELLUCID_CHECK(image.width > 0 && image.height > 0 && values > 0, "only real images are written");
   PELLUCID_CHECK(image.data.size() == values, "image data fit its size");
-  AtomicFile file(path);
-  std::string reason = plugin().write(file.temporary(), image);
-  if (!reason.empty()) {
-    // The library names the file it was given; the user knows it by another name.
-    const std::size_t at = reason.find(file.temporary());
-    if (at != std::string::npos) reason.replace(at, file.temporary().size(), path);
-    throw OutputError(fmt::format("cannot write image '{}': {}", path, reason));
-  }
-  file.commit();
+  write_file(path, [&](const std::string& name) { return plugin().write(name, image); });
+}
+
+WordImage read_words(const std::string& path) {
+  WordImage words;
+  read_file(path, [&] { return plugin().read_words(path, words); });
+  return words;
+}
+
+void write_words(const std::string& path, const WordImage& words) {
+  PELLUCID_CHECK(words.width > 0 && words.height > 0 &&
+                     words.data.size() == std::size_t(words.width) * std::size_t(words.height) *
+                                              words.channels.size(),
+                 "data fit the size");
+  write_file(path, [&](const std::string& name) { return plugin().write_words(name, words); });
 }
 
 }  // namespace pellucid

@@ -15,9 +15,27 @@ using MetaValue =
 /// Float image, row-major, channels interleaved: data[(y * width + x) * channels.size() + c].
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::string> channels;  ///< e.g. {"R","G","B","variance.R",...}
+  int x0 = 0, y0 = 0;                   ///< place in the whole picture, for a crop
+  int full_width = 0, full_height = 0;  ///< of the whole picture; 0: this is the whole
+  std::vector<std::string> channels;    ///< e.g. {"R","G","B","variance.R",...}
   std::vector<float> data;
   std::map<std::string, MetaValue> metadata;  ///< e.g. "samplesPerPixel", "pellucid:seed"
+
+  /// Index of a channel, or -1.
+  int channel(const std::string& name) const {
+    for (size_t i = 0; i < channels.size(); ++i)
+      if (channels[i] == name) return static_cast<int>(i);
+    return -1;
+  }
+};
+
+/// Whole numbers by channel, row-major and interleaved as in Image: data that must come back bit
+/// for bit.
+struct WordImage {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;
+  std::vector<unsigned> data;
+  std::map<std::string, MetaValue> metadata;
 
   /// Index of a channel, or -1.
   int channel(const std::string& name) const {
@@ -46,5 +64,11 @@ Image read_image(const std::string& path, bool linearise = false);
 /// other lengths are not kept. Atomic: a temporary name in the same folder, then rename. Throws
 /// OutputError naming the file and the reason.
 void write_image(const std::string& path, const Image& image);
+
+/// OpenEXR with 32-bit whole-number channels, whatever the name; not compressed, since words of
+/// sums have little to gain. Errors and atomicity as above; reading also fails where a channel is
+/// of another type.
+WordImage read_words(const std::string& path);
+void write_words(const std::string& path, const WordImage& words);
 
 }  // namespace pellucid

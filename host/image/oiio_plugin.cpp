@@ -65,21 +65,21 @@ void set_attribute(OIIO::ImageSpec& spec, const std::string& name, const MetaVal
 }
 
 /// Attributes of types we have no use for (e.g. rationals) are left out.
-void get_attribute(const OIIO::ParamValue& p, Image& image) {
+void get_attribute(const OIIO::ParamValue& p, std::map<std::string, MetaValue>& metadata) {
   std::string name = p.name().string();
   for (const auto& [theirs, standard] : RENAMED)
     if (name == theirs) name = standard;
   const OIIO::TypeDesc type = p.type();
   const std::size_t count = type.numelements() * type.aggregate;
   if (type == OIIO::TypeInt) {
-    image.metadata[name] = p.get_int();
+    metadata[name] = p.get_int();
   } else if (type == OIIO::TypeFloat) {
-    image.metadata[name] = p.get_float();
+    metadata[name] = p.get_float();
   } else if (type == OIIO::TypeString) {
-    image.metadata[name] = p.get_string();
+    metadata[name] = p.get_string();
   } else if (type.basetype == OIIO::TypeDesc::FLOAT && p.nvalues() == 1) {
     const float* values = static_cast<const float*>(p.data());
-    image.metadata[name] = std::vector<float>(values, values + count);
+    metadata[name] = std::vector<float>(values, values + count);
   }
 }
 
@@ -168,11 +168,19 @@ std::string read_file(const std::string& path, bool linearise, Image& image) {
 
   image.width = spec.width;
   image.height = spec.height;
+  const bool crop = spec.x != spec.full_x || spec.y != spec.full_y ||
+                    spec.width != spec.full_width || spec.height != spec.full_height;
+  if (crop) {
+    image.x0 = spec.x - spec.full_x;
+    image.y0 = spec.y - spec.full_y;
+    image.full_width = spec.full_width;
+    image.full_height = spec.full_height;
+  }
   image.channels.assign(spec.channelnames.begin(), spec.channelnames.end());
   image.data.resize(spec.image_pixels() * std::size_t(spec.nchannels));
   if (!file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, image.data.data()))
     return reason_or(file->geterror(), "pixels cannot be read");
-  for (const OIIO::ParamValue& p : spec.extra_attribs) get_attribute(p, image);
+  for (const OIIO::ParamValue& p : spec.extra_attribs) get_attribute(p, image.metadata);
   if (linearise && is_srgb(spec)) linearise_colours(spec, image);
   restore_order(image);
   file->close();
@@ -188,6 +196,12 @@ OIIO::ImageSpec make_spec(const Image& image, const std::string& format) {
   spec.channelnames.assign(image.channels.begin(), image.channels.end());
   if (format == "png") spec.attribute("oiio:ColorSpace", "sRGB");
   if (!exr) return spec;
+  if (image.full_width > 0) {
+    spec.x = image.x0;
+    spec.y = image.y0;
+    spec.full_width = image.full_width;
+    spec.full_height = image.full_height;
+  }
   spec.attribute("compression", "zip");
   for (const auto& [name, value] : image.metadata) set_attribute(spec, name, value);
   if (image.metadata.count(DATE_ATTRIBUTE) == 0) spec.attribute(DATE_ATTRIBUTE, "");
@@ -245,6 +259,52 @@ std::string write_file(const std::string& path, const Image& original) {
   return reason.empty() ? write_bytes(path, bytes) : reason;
 }
 
+// ---- words -----------------------------------------------------------------------------------
+
+constexpr const char* WORD_FORMAT = "openexr";
+
+std::string read_word_file(const std::string& path, WordImage& words) {
+  auto file = OIIO::ImageInput::create(WORD_FORMAT);
+  OIIO::ImageSpec spec;
+  if (!file || !file->open(path, spec)) return reason_or(OIIO::geterror(), "no OpenEXR file");
+  if (spec.deep || spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0)
+    return "not a flat picture with at least one pixel";
+  for (int c = 0; c < spec.nchannels; ++c)
+    if (spec.channelformat(c) != OIIO::TypeUInt32)
+      return "not a checkpoint: channel " + spec.channelnames[std::size_t(c)] +
+             " holds no whole numbers";
+  words.width = spec.width;
+  words.height = spec.height;
+  words.channels.assign(spec.channelnames.begin(), spec.channelnames.end());
+  words.data.resize(spec.image_pixels() * std::size_t(spec.nchannels));
+  if (!file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeUInt32, words.data.data()))
+    return reason_or(file->geterror(), "pixels cannot be read");
+  for (const OIIO::ParamValue& p : spec.extra_attribs) get_attribute(p, words.metadata);
+  file->close();
+  return "";
+}
+
+std::string write_word_file(const std::string& path, const WordImage& words) {
+  auto file = OIIO::ImageOutput::create(WORD_FORMAT);
+  if (!file) return reason_or(OIIO::geterror(), "no OpenEXR writer");
+  OIIO::ImageSpec spec(words.width, words.height, static_cast<int>(words.channels.size()),
+                       OIIO::TypeUInt32);
+  spec.channelnames.assign(words.channels.begin(), words.channels.end());
+  spec.attribute("compression", "none");
+  for (const auto& [name, value] : words.metadata) set_attribute(spec, name, value);
+  spec.attribute(DATE_ATTRIBUTE, "");
+  if (!file->open(path, spec)) return reason_or(file->geterror(), "the file cannot be opened");
+  if (!file->write_image(OIIO::TypeUInt32, words.data.data()))
+    return reason_or(file->geterror(), "pixels cannot be written");
+  return file->close() ? "" : reason_or(file->geterror(), "the file cannot be completed");
+}
+
+std::string guarded_read_words(const std::string& path, WordImage& words) {
+  return guarded([&] { return read_word_file(path, words); });
+}
+std::string guarded_write_words(const std::string& path, const WordImage& words) {
+  return guarded([&] { return write_word_file(path, words); });
+}
 std::string guarded_read(const std::string& path, bool linearise, Image& image) {
   return guarded([&] { return read_file(path, linearise, image); });
 }
@@ -252,7 +312,7 @@ std::string guarded_write(const std::string& path, const Image& image) {
   return guarded([&] { return write_file(path, image); });
 }
 
-const ImagePlugin plugin = {guarded_read, guarded_write};
+const ImagePlugin plugin = {guarded_read, guarded_write, guarded_read_words, guarded_write_words};
 
 }  // namespace
 }  // namespace pellucid

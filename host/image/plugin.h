@@ -14,12 +14,14 @@ struct ImagePlugin {
   std::string (*read)(const std::string& path, bool linearise, Image& image);
   /// `path` exists and may be overwritten; its suffix selects the format.
   std::string (*write)(const std::string& path, const Image& image);
+  std::string (*read_words)(const std::string& path, WordImage& words);
+  std::string (*write_words)(const std::string& path, const WordImage& words);
 };
 
 /// Layout version of ImagePlugin and Image, part of the symbol's name: a stale library left over
 /// from another build then fails to load instead of crashing.
-#define PELLUCID_IMAGE_PLUGIN pellucid_image_plugin_1
-#define PELLUCID_IMAGE_PLUGIN_NAME "pellucid_image_plugin_1"
+#define PELLUCID_IMAGE_PLUGIN pellucid_image_plugin_2
+#define PELLUCID_IMAGE_PLUGIN_NAME "pellucid_image_plugin_2"
 
 using ImagePluginEntry = const ImagePlugin* (*)();
 

@@ -76,6 +76,21 @@ struct Builder {
   }
 };
 
+/// Exponent of the brightest light's radiance; of lights without a surface, what they make of a
+/// white one, points from the far side of the scene. The film counts in fractions of it.
+int brightness_exponent(const PackedScene& scene) {
+  double brightest = 0;
+  for (const ::Light& light : scene.lights) {
+    double value = std::max({light.value.x, light.value.y, light.value.z});
+    const double r = scene.info.center_radius.w > 0.0f ? scene.info.center_radius.w : 1.0;
+    if (light.kind == LIGHT_POINT) value /= r * r;
+    brightest = std::max(brightest, value);
+  }
+  int exponent = 0;
+  std::frexp(brightest, &exponent);
+  return exponent;
+}
+
 /// Vose's alias table in double. A light of zero power is never picked; if all are, they share
 /// equally.
 void build_alias(std::vector<double> power, std::vector<::Light>& lights) {
@@ -121,6 +136,7 @@ void pack_lights(const Scene& scene, PackedScene& out) {
   for (const Light& light : scene.lights) builder.add_light(light);
   if (!out.lights.empty()) build_alias(builder.power, out.lights);
   out.info.light_count = static_cast<uint>(out.lights.size());
+  out.brightness_exponent = brightness_exponent(out);
 }
 
 }  // namespace pellucid

@@ -32,6 +32,7 @@ struct PackedScene {
   SceneInfo info{};
   ::Camera camera{};
   FeatureSet features;  ///< what the scene needs
+  int brightness_exponent = 0;  ///< 2^it is at least the radiance of the brightest light
   int simd_width = 8;
   uint stack_bound = 0;  ///< traversal stack entries needed
   bvh::Statistics bvh;

@@ -4,20 +4,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "render/memory.h"
 #include "shared/buffers.h"
 
 namespace pellucid {
-namespace {
-
-bool uses(const Integrator& integrator, Bundle bundle) {
-  for (const Pass& pass : integrator.passes)
-    for (Bundle b : pass.bundles)
-      if (b == bundle) return true;
-  return false;
-}
-
-}  // namespace
-
 std::vector<std::string> bundle_buffers(Bundle bundle) {
 #define PELLUCID_NAME(T, name, meaning) #name,
   switch (bundle) {
@@ -59,20 +49,6 @@ void collect_counters(Device& device, const Buffer& diag, std::vector<Counter>& 
   device.write(diag, counts.data(), counts.size() * sizeof(uint));
 }
 
-std::map<std::string, std::size_t> plan_memory(const PackedScene& scene,
-                                               const Integrator& integrator, std::size_t pixels) {
-  std::map<std::string, std::size_t> bytes;
-#define PELLUCID_SCENE_BYTES(T, name, meaning) bytes[#name] = scene.name.size() * sizeof(T);
-  SCENE_BUFFERS(PELLUCID_SCENE_BYTES)
-#undef PELLUCID_SCENE_BYTES
-  bytes["samples"] = pixels * sizeof(F4);
-  bytes["film"] = pixels * sizeof(FilmPixel);
-  bytes["diag"] = DIAG_COUNT * sizeof(uint);
-  constexpr std::size_t words_per_pixel = 6;  // three channels of 64 bits
-  if (uses(integrator, Bundle::splat)) bytes["splats"] = pixels * words_per_pixel * sizeof(uint);
-  return bytes;
-}
-
 std::vector<std::string> parameter_names(const Pass& pass) {
   std::vector<std::string> names;
   for (Bundle bundle : pass.bundles) {
@@ -96,12 +72,12 @@ Specialisation specialise(const PackedScene& scene, const Integrator& integrator
 }
 
 Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator,
-           const PlanOptions& options, uint width, uint height)
+           const PlanOptions& options, std::size_t tile_pixels)
     : device_(std::move(device)),
       options_(options),
       specialisation_(specialise(scene, integrator, device_.info(), options)),
-      pixels_(std::size_t(width) * height) {
-  const auto bytes = plan_memory(scene, integrator, pixels_);
+      tile_pixels_(tile_pixels) {
+  const auto bytes = buffer_sizes(scene, integrator, tile_pixels_);
   buffers_ = upload_scene(device_, scene);
   for (const auto& [name, size] : bytes)
     if (!buffers_.count(name)) buffers_[name] = device_.create_buffer(name, size);
@@ -139,22 +115,26 @@ void Plan::warm_up() {
   const Launch nothing{};
   for (PassState& state : passes_) {
     state.kernel.set_bytes(state.launch_index, &nothing, sizeof nothing);
-    device_.launch(state.kernel, pixels_, state.group, nullptr);
+    device_.launch(state.kernel, tile_pixels_, state.group, nullptr);
   }
   device_.finish();
 }
 
 void Plan::enqueue(const Launch& launch) {
+  const std::size_t pixels = std::size_t(launch.tile_width) * launch.tile_height;
+  PELLUCID_CHECK(pixels <= tile_pixels_, "a tile fits the buffers");
   for (PassState& state : passes_) {
     state.kernel.set_bytes(state.launch_index, &launch, sizeof launch);
-    device_.launch(state.kernel, pixels_, state.group, &state.time);
+    device_.launch(state.kernel, pixels, state.group, &state.time);
   }
 }
 
-std::vector<FilmPixel> Plan::read_film() {
-  std::vector<FilmPixel> film(pixels_);
-  device_.read(buffers_.at("film"), film.data(), film.size() * sizeof(FilmPixel));
-  return film;
+void Plan::read_film(FilmPixel* film, std::size_t pixels) {
+  device_.read(buffers_.at("film"), film, pixels * sizeof(FilmPixel));
+}
+
+void Plan::write_film(const FilmPixel* film, std::size_t pixels) {
+  device_.write(buffers_.at("film"), film, pixels * sizeof(FilmPixel));
 }
 
 void Plan::collect(std::vector<Counter>& counters) {

@@ -10,6 +10,7 @@
 #include "cl/sources.h"
 #include "pack/pack.h"
 #include "render/diagnostics.h"
+#include "render/film.h"
 #include "render/integrator.h"
 #include "render/specialise.h"
 
@@ -47,10 +48,6 @@ struct PassState {
   PassTime time;
 };
 
-/// Name and size of every device buffer that rendering `scene` with `integrator` needs.
-std::map<std::string, std::size_t> plan_memory(const PackedScene& scene,
-                                               const Integrator& integrator, std::size_t pixels);
-
 /// Parameter names of a pass in order, as its kernel declares them.
 std::vector<std::string> parameter_names(const Pass& pass);
 
@@ -60,16 +57,18 @@ Specialisation specialise(const PackedScene& scene, const Integrator& integrator
 
 class Plan {
  public:
-  /// Uploads the scene, allocates the film (cleared) and builds all passes, code generation
-  /// included, so that the first iteration is as fast as the last. Throws DeviceError.
+  /// Uploads the scene, allocates the film of a tile (cleared) and builds all passes, code
+  /// generation included, so that the first iteration is as fast as the last. Throws DeviceError.
   Plan(Device device, const PackedScene& scene, const Integrator& integrator,
-       const PlanOptions& options, uint width, uint height);
+       const PlanOptions& options, std::size_t tile_pixels);
 
-  /// Enqueues one iteration; returns at once.
+  /// Enqueues one iteration over the launch's tile; returns at once.
   void enqueue(const Launch& launch);
   void finish() { device_.finish(); }
 
-  std::vector<FilmPixel> read_film();
+  /// The first `pixels` of the tile's film.
+  void read_film(FilmPixel* film, std::size_t pixels);
+  void write_film(const FilmPixel* film, std::size_t pixels);
   /// Adds the device's counters to `counters` and clears them.
   void collect(std::vector<Counter>& counters);
 
@@ -84,7 +83,7 @@ class Plan {
   Device device_;
   PlanOptions options_;
   Specialisation specialisation_;
-  std::size_t pixels_;
+  std::size_t tile_pixels_;
   std::map<std::string, Buffer> buffers_;
   std::vector<PassState> passes_;
 };

@@ -66,15 +66,14 @@ SelfTestRender selftest_render(const Device& device, const Integrator& integrato
   RenderOptions options;
   options.width = scene.settings.width;
   options.height = scene.settings.height;
-  options.spp = 256;
+  options.passes = PassRange{0, 256};
   Session session(device, packed, integrator, options);
   session.run({});
-  const std::vector<FilmPixel> film = session.film();
-  const Image image = film_image(film, options.width, options.height, true, false);
+  const Image image = film_image(session.film(), true, false);
   SelfTestRender result;
   result.expected = radiance / (1.0 - reflectance);
   double variance = 0;
-  const std::size_t pixels = film.size();
+  const std::size_t pixels = options.window().pixels();
   for (std::size_t i = 0; i < pixels; ++i) {
     result.mean += image.data[6 * i] / double(pixels);  // grey: one channel tells all
     variance += image.data[6 * i + 3] / double(pixels * pixels);

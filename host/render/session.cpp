@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/timer.h"
+#include "shared/limits.h"
 
 namespace pellucid {
 namespace {
@@ -24,99 +25,180 @@ uint hash_seed(std::uint64_t seed) {
 
 /// Time between two looks at signals and the clock.
 constexpr double batch_seconds = 0.2;
+/// A batch lasts at least so many times what moving its tiles costs.
+constexpr double least_work_per_swap = 20.0;
 
 Plan timed_plan(const Device& device, const PackedScene& scene, const Integrator& integrator,
-                const RenderOptions& options, double& seconds) {
+                const RenderOptions& options, const MemoryPlan& memory, double& seconds) {
   const Timer timer;
-  const std::size_t pixels = std::size_t(options.width) * std::size_t(options.height);
-  check_memory(device.info(), plan_memory(scene, integrator, pixels));
-  Plan plan(device, scene, integrator, options.plan, uint(options.width), uint(options.height));
+  Plan plan(device, scene, integrator, options.plan, memory.tile_pixels());
   seconds = timer.seconds();
   return plan;
 }
 
-}  // namespace
-
-void check_memory(const DeviceInfo& device, const std::map<std::string, std::size_t>& buffers) {
-  std::uint64_t total = 0;
-  for (const auto& [name, bytes] : buffers) {
-    total += bytes;
-    if (bytes > device.max_buffer)
-      throw DeviceError(fmt::format("buffer '{}' needs {}, but one buffer on {} holds at most {}",
-                                    name, format_bytes(bytes), device.name,
-                                    format_bytes(device.max_buffer)));
-  }
-  if (total > device.memory)
-    throw DeviceError(fmt::format("this render needs {} of device memory, but {} has {}",
-                                  format_bytes(total), device.name, format_bytes(device.memory)));
+std::uint64_t block_size_of(const Plan& plan) {
+  return plan.specialisation().features.has(INTG_SOBOL) ? SOBOL_BLOCK : 1u;
 }
 
+}  // namespace
+
 Session::Session(const Device& device, const PackedScene& scene, const Integrator& integrator,
-                 const RenderOptions& options)
-    : options_(options), plan_(timed_plan(device, scene, integrator, options, kernel_seconds_)) {
-  PELLUCID_CHECK(options_.spp || options_.seconds, "a render needs a budget");
-  launch_.width = launch_.tile_width = uint(options_.width);
-  launch_.height = launch_.tile_height = uint(options_.height);
+                 const RenderOptions& options, std::optional<Film> start)
+    : options_(options),
+      memory_(plan_memory(device.info(), scene, integrator, options.window(), options.memory)),
+      plan_(timed_plan(device, scene, integrator, options, memory_, kernel_seconds_)),
+      film_(options.width, options.height, options.window(),
+            scene.brightness_exponent - FILM_FRACTION_BITS, block_size_of(plan_)) {
+  PELLUCID_CHECK(options_.passes || options_.seconds, "a render needs a budget");
+  device_has_film_ = !start && memory_.tiles.size() == 1;  // both black
+  if (start) {
+    PELLUCID_CHECK(start->window == film_.window && start->lsb == film_.lsb &&
+                       start->block_size == film_.block_size,
+                   "a film to go on with is of the same picture");
+    film_ = std::move(*start);
+  }
+  launch_.width = uint(options_.width);
+  launch_.height = uint(options_.height);
   launch_.seed = hash_seed(options_.seed);
   launch_.max_depth = options_.max_depth.value_or(NONE);
   launch_.mis = options_.mis;
+  launch_.film_lsb = film_.lsb;
   launch_.splat_scale = 1048576.0f;  // no method here splats yet; light tracing sets it by power
 }
 
-std::uint64_t Session::batch_size(double seconds_per_iteration) const {
-  std::uint64_t batch = 1;
-  if (seconds_per_iteration > 0)
-    batch = std::uint64_t(std::clamp(batch_seconds / seconds_per_iteration, 1.0, 4096.0));
-  if (options_.spp) batch = std::min(batch, *options_.spp - iteration_);
-  return batch;
+/// The next passes to do, at most `most` and within one block unless every block on the way is new
+/// and gets complete.
+std::optional<Session::Batch> Session::next_batch(std::uint64_t most) const {
+  const PassRange wanted = options_.passes.value_or(PassRange{0, std::uint64_t{1} << 32});
+  const std::vector<PassRange> gaps = film_.passes.missing(wanted);
+  if (gaps.empty()) return std::nullopt;
+  const PassRange gap = gaps.front();
+  const std::uint64_t block_end = film_.block_range(gap.first / film_.block_size).last;
+  const PassRange block = film_.block_range(gap.first / film_.block_size);
+  const bool fresh = film_.passes.count(block) == 0 && gap.first == block.first;
+  std::uint64_t count = std::min(most, gap.count());
+  if (!fresh) count = std::min(count, block_end - gap.first);
+  // Whole blocks, or a part of one: a batch never ends in its second block.
+  if (count > film_.block_size) count -= count % film_.block_size;
+  return Batch{gap.first, count};
 }
 
-std::string Session::progress_text(double elapsed) {
+void Session::to_device(const Window& tile) {
+  if (device_has_film_) return;
+  const std::size_t first = std::size_t(tile.y0 - film_.window.y0) * std::size_t(tile.width);
+  plan_.write_film(film_.pixels.data() + first, tile.pixels());
+}
+
+void Session::to_host(const Window& tile) {
+  const std::size_t first = std::size_t(tile.y0 - film_.window.y0) * std::size_t(tile.width);
+  plan_.read_film(film_.pixels.data() + first, tile.pixels());
+}
+
+const Film& Session::film() {
+  if (!host_has_film_) to_host(memory_.tiles.front());
+  host_has_film_ = true;
+  return film_;
+}
+
+void Session::render_batch(const Batch& batch) {
+  const std::uint64_t block = batch.first / film_.block_size;
+  if (film_.current != block && (film_.current || film_.open.count(block))) {
+    film();
+    device_has_film_ = false;
+  }
+  film_.select_block(block);
+  const bool one_tile = memory_.tiles.size() == 1;
+  double swapping = 0;
+  for (const Window& tile : memory_.tiles) {
+    launch_.tile_x = uint(tile.x0), launch_.tile_y = uint(tile.y0);
+    launch_.tile_width = uint(tile.width), launch_.tile_height = uint(tile.height);
+    Timer swap;
+    to_device(tile);
+    swapping += swap.seconds();
+    for (std::uint64_t i = 0; i < batch.count; ++i) {
+      const std::uint64_t pass = batch.first + i;
+      const PassRange its = film_.block_range(pass / film_.block_size);
+      // Passes of the block that are done when this one is: those before the batch and our own.
+      const std::uint64_t ours = pass + 1 - std::max(its.first, batch.first);
+      launch_.block_ends = film_.passes.count(its) + ours == its.count();
+      launch_.iteration = static_cast<uint>(pass);
+      plan_.enqueue(launch_);
+    }
+    plan_.finish();
+    swap = Timer();
+    if (!one_tile) to_host(tile);
+    swapping += swap.seconds();
+  }
+  swap_seconds_ = one_tile ? 0 : swapping;
+  device_has_film_ = one_tile;
+  host_has_film_ = !one_tile;
+  film_.passes.add({batch.first, batch.first + batch.count});
+  const std::uint64_t last = (batch.first + batch.count - 1) / film_.block_size;
+  film_.current.reset();
+  if (!film_.passes.contains(film_.block_range(last))) film_.current = last;
+}
+
+std::uint64_t Session::batch_limit(double elapsed, std::uint64_t done) const {
+  constexpr double most = 4096.0;
+  const double target = std::max(batch_seconds, least_work_per_swap * swap_seconds_);
+  return done ? std::uint64_t(std::clamp(target / (elapsed / double(done)), 1.0, most)) : 1;
+}
+
+std::string Session::progress_text(double elapsed, std::uint64_t done) {
   if (elapsed >= next_look_) {
     const Timer cost;
-    seen_ = summarise(plan_.read_film());
+    seen_ = summarise(film());
     // Rays and noise need the whole film: seldom enough to stay below 2 % of the time.
     constexpr double least_pause = 1.0, times_its_cost = 50.0;
     next_look_ = elapsed + std::max(least_pause, times_its_cost * cost.seconds());
   }
-  const double done_spp = options_.spp ? double(iteration_) / double(*options_.spp) : 0.0;
+  const PassRange wanted = options_.passes.value_or(PassRange{0, 0});
+  std::uint64_t left = 0;
+  for (const PassRange& gap : film_.passes.missing(wanted)) left += gap.count();
+  const double done_passes =
+      options_.passes ? double(done) / double(std::max<std::uint64_t>(done + left, 1)) : 0.0;
   const double done_time = options_.seconds ? elapsed / *options_.seconds : 0.0;
-  const double done = std::min(1.0, std::max(done_spp, done_time));
-  const double left = done > 0 ? elapsed / done - elapsed : 0.0;
-  const double rays_per_iteration =
+  const double part = std::min(1.0, std::max(done_passes, done_time));
+  const double seconds_left = part > 0 ? elapsed / part - elapsed : 0.0;
+  const double rays_per_pass =
       double(seen_.rays) / double(std::max<std::uint64_t>(seen_.iterations, 1));
-  return fmt::format("{:3.0f} %  pass {}  {:.1f} Mrays/s  {} left{}", 100 * done, iteration_,
-                     1e-6 * rays_per_iteration * double(iteration_) / elapsed, format_seconds(left),
-                     std::isfinite(seen_.relmse)
-                         ? fmt::format("  noise {:.2g} %", 100 * std::sqrt(seen_.relmse))
-                         : "");
+  return fmt::format(
+      "{:3.0f} %  pass {}  {:.1f} Mrays/s  {} left{}", 100 * part, film_.passes.count(),
+      1e-6 * rays_per_pass * double(done) / elapsed, format_seconds(seconds_left),
+      std::isfinite(seen_.relmse) ? fmt::format("  noise {:.2g} %", 100 * std::sqrt(seen_.relmse))
+                                  : "");
 }
 
 bool Session::run(const RenderHooks& hooks) {
   const Timer timer;
   const double seconds_before = render_seconds_;
-  bool stopped = false;
-  while (!stopped) {
+  std::uint64_t done = 0;
+  bool complete = true;
+  while (true) {
     const double elapsed = timer.seconds();
-    if (options_.spp && iteration_ >= *options_.spp) break;
-    if (options_.seconds && iteration_ > 0 && elapsed >= *options_.seconds) break;
-    const std::uint64_t batch = batch_size(iteration_ ? elapsed / double(iteration_) : 0.0);
-    for (std::uint64_t i = 0; i < batch; ++i) {
-      launch_.iteration = static_cast<uint>(iteration_++);
-      plan_.enqueue(launch_);
+    if (options_.seconds && done > 0 && elapsed >= *options_.seconds) break;
+    const std::optional<Batch> batch = next_batch(batch_limit(elapsed, done));
+    if (!batch) break;
+    if (done > 0 && hooks.stop && hooks.stop()) {
+      complete = false;
+      break;
     }
-    plan_.finish();
-    if (hooks.progress) hooks.progress(progress_text(timer.seconds()));
+    render_batch(*batch);
+    done += batch->count;
+    if (hooks.progress) hooks.progress(progress_text(timer.seconds(), done));
     render_seconds_ = seconds_before + timer.seconds();
-    if (hooks.wants_image && hooks.wants_image()) {
+    if (hooks.wants_film && hooks.wants_film()) {
       plan_.collect(counters_);
-      hooks.image(plan_.read_film());
+      hooks.film(film());
     }
-    stopped = hooks.stop && hooks.stop();
   }
   render_seconds_ = seconds_before + timer.seconds();
   plan_.collect(counters_);
-  return !stopped || (options_.spp && iteration_ >= *options_.spp);
+  return complete;
+}
+
+void Session::add_counters(const std::vector<Counter>& earlier) {
+  for (std::size_t i = 0; i < counters_.size(); ++i) counters_[i].count += earlier.at(i).count;
 }
 
 }  // namespace pellucid

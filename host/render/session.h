@@ -7,58 +7,74 @@
 #include <string>
 
 #include "render/film.h"
+#include "render/memory.h"
 #include "render/plan.h"
 
 namespace pellucid {
 
 struct RenderOptions {
-  int width = 512, height = 512;     ///< must agree with the packed camera
-  std::optional<std::uint64_t> spp;  ///< iterations
-  std::optional<double> seconds;     ///< ends the render after the iteration in hand
+  int width = 512, height = 512;    ///< of the whole picture; must agree with the packed camera
+  std::optional<Window> crop;       ///< the part to render; absent: all of it
+  std::optional<PassRange> passes;  ///< global passes to have in the end
+  std::optional<double> seconds;    ///< ends the render after the iteration in hand
   std::uint64_t seed = 0;
   std::optional<uint> max_depth;  ///< segments; absent = unlimited
   uint mis = MIS_BALANCE;
+  std::optional<std::uint64_t> memory;  ///< most bytes on the device
   PlanOptions plan;
+
+  Window window() const { return crop.value_or(Window{0, 0, width, height}); }
 };
 
 /// Polled between batches of iterations.
 struct RenderHooks {
   std::function<bool()> stop;  ///< true: end after the pass in hand
   std::function<void(const std::string&)> progress;
-  std::function<bool()> wants_image;  ///< true: hand out the image so far ...
-  std::function<void(const std::vector<FilmPixel>&)> image;  ///< ... to this
+  std::function<bool()> wants_film;       ///< true: hand out the film so far ...
+  std::function<void(const Film&)> film;  ///< ... to this
 };
-
-/// Throws DeviceError with the figures if `device` has too little memory for these buffers; asking
-/// before anything is allocated saves the time until an allocation fails.
-void check_memory(const DeviceInfo& device, const std::map<std::string, std::size_t>& buffers);
 
 class Session {
  public:
+  /// Makes everything ready; `start` is a film to go on with, of the same picture and block size.
+  /// Throws DeviceError.
   Session(const Device& device, const PackedScene& scene, const Integrator& integrator,
-          const RenderOptions& options);
+          const RenderOptions& options, std::optional<Film> start = {});
 
   /// Renders until the budget is used up or a hook says stop (then returns false).
   bool run(const RenderHooks& hooks);
 
-  std::vector<FilmPixel> film() { return plan_.read_film(); }
-  std::uint64_t iterations() const { return iteration_; }
-  double render_seconds() const { return render_seconds_; }
+  /// With all passes done so far.
+  const Film& film();
+  double render_seconds() const { return render_seconds_; }  ///< of run()
   double kernel_seconds() const { return kernel_seconds_; }
   const std::vector<Counter>& counters() const { return counters_; }
+  /// Puts counts of earlier passes in front of ours.
+  void add_counters(const std::vector<Counter>& earlier);
   const Plan& plan() const { return plan_; }
+  const MemoryPlan& memory() const { return memory_; }
 
  private:
-  std::uint64_t batch_size(double seconds_per_iteration) const;
-  std::string progress_text(double elapsed);
+  struct Batch {
+    std::uint64_t first = 0, count = 0;
+  };
+  std::optional<Batch> next_batch(std::uint64_t most) const;
+  std::uint64_t batch_limit(double elapsed, std::uint64_t done) const;
+  void render_batch(const Batch& batch);
+  void to_device(const Window& tile);
+  void to_host(const Window& tile);
+  std::string progress_text(double elapsed, std::uint64_t done);
 
   RenderOptions options_;
+  MemoryPlan memory_;
   double kernel_seconds_ = 0;
   Plan plan_;
   Launch launch_{};
+  Film film_;
+  bool device_has_film_, host_has_film_ = true;  ///< which of them know all passes done
+  double swap_seconds_ = 0;                      ///< of moving all tiles once
   FilmSummary seen_;      ///< of the last look at the film, for the progress line
   double next_look_ = 0;  ///< seconds after the start of run()
-  std::uint64_t iteration_ = 0;
   double render_seconds_ = 0;
   std::vector<Counter> counters_ = make_counters();
 };

@@ -4,30 +4,7 @@
 
 #include "core/real.h"
 #include "shared/buffers.h"
-#include "shared/limits.h"
-
-/// Adds x to the two-float sum (high, low) [Knuth TwoSum, then renormalised]: the error of n
-/// additions stays near 2^-48 n instead of 2^-24 n. Correct for any order of magnitudes; needs
-/// strict arithmetic.
-INLINE void sum_add(PRIVATE float* high, PRIVATE float* low, float x) {
-  float a = *high;
-  float s = a + x;
-  float bb = s - a;
-  float error = (a - (s - bb)) + (x - bb);
-  float l = *low + error;
-  *high = s + l;
-  *low = l - (*high - s);
-}
-
-INLINE void sum_add3(PRIVATE F4* high, PRIVATE F4* low, float x, float y, float z) {
-  float hx = high->x, hy = high->y, hz = high->z;
-  float lx = low->x, ly = low->y, lz = low->z;
-  sum_add(&hx, &lx, x);
-  sum_add(&hy, &ly, y);
-  sum_add(&hz, &lz, z);
-  high->x = hx, high->y = hy, high->z = hz;
-  low->x = lx, low->y = ly, low->z = lz;
-}
+#include "shared/film_sums.h"
 
 INLINE int float_is_finite(float x) {
 #if PELLUCID_DEVICE
@@ -37,31 +14,71 @@ INLINE int float_is_finite(float x) {
 #endif
 }
 
+INLINE uint float_bits(float x) {
+#if PELLUCID_DEVICE
+  return as_uint(x);
+#else
+  uint bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return bits;
+#endif
+}
+
+INLINE void film_count(GLOBAL uint* diag, uint counter) {
+#if PELLUCID_DEVICE
+  atomic_inc(&diag[counter]);
+#else
+  ++diag[counter];
+#endif
+}
+
+/// A channel's sample in steps of 2^lsb; *flaw receives 1 + counter where it does not fit.
+INLINE WideValue film_steps(float x, int lsb, PRIVATE int* flaw) {
+  WideValue v = wide_from_float(float_bits(x));
+  v.exponent -= lsb;
+  if (v.exponent > FILM_SAMPLE_BITS - 24) {
+    *flaw = 1 + DIAG_film_saturated;
+    v.mantissa = 0xffffffu;
+    v.exponent = FILM_SAMPLE_BITS - 24;
+  } else if (v.mantissa != 0u && v.exponent < FILM_FAINT_BITS - 24) {
+    if (!*flaw) *flaw = 1 + DIAG_film_faint;
+  }
+  return wide_round(v);
+}
+
+/// Adds one iteration's channel: to the block under way, or, where every iteration is a block, to
+/// the sums.
+INLINE void film_add_channel(GLOBAL FilmPixel* pixel, int c, WideValue v) {
+#if INTG_SOBOL
+  wide_add(pixel->block[c], FILM_SUM_WORDS, v);
+#else
+  wide_add(pixel->sum[c], FILM_SUM_WORDS, v);
+  wide_add(pixel->square[c], FILM_SQUARE_WORDS, wide_square(v, FILM_SQUARE_DROP));
+#endif
+}
+
 /// Adds one iteration's value of a pixel (w: its rays). A non-finite or negative value is dropped
 /// (its pixel gets 0 for the iteration) and counted.
-INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, F4 sample) {
-  FilmPixel p = *pixel;
-  int bad = 0;
-  if (!float_is_finite(sample.x) || !float_is_finite(sample.y) || !float_is_finite(sample.z))
-    bad = 1 + DIAG_nonfinite;
-  else if (sample.x < 0.0f || sample.y < 0.0f || sample.z < 0.0f)
-    bad = 1 + DIAG_negative;
-  if (bad) {
-#if PELLUCID_DEVICE
-    atomic_inc(&diag[bad - 1]);
-#else
-    ++diag[bad - 1];
-#endif
+INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, Launch launch, F4 sample) {
+  int flaw = 0;
+  if (!float_is_finite(sample.x) || !float_is_finite(sample.y) || !float_is_finite(sample.z)) {
+    flaw = 1 + DIAG_nonfinite;
+  } else if (sample.x < 0.0f || sample.y < 0.0f || sample.z < 0.0f) {
+    flaw = 1 + DIAG_negative;
   } else {
-    sum_add3(&p.sum, &p.sum_low, sample.x, sample.y, sample.z);
-    sum_add3(&p.square, &p.square_low, sample.x * sample.x, sample.y * sample.y,
-             sample.z * sample.z);
+    film_add_channel(pixel, 0, film_steps(sample.x, launch.film_lsb, &flaw));
+    film_add_channel(pixel, 1, film_steps(sample.y, launch.film_lsb, &flaw));
+    film_add_channel(pixel, 2, film_steps(sample.z, launch.film_lsb, &flaw));
   }
+  if (flaw) film_count(diag, (uint)(flaw - 1));
+#if INTG_SOBOL
+  if (launch.block_ends) film_end_block(pixel);
+#endif
   uint rays = (uint)sample.w;
-  p.count.x += 1u;
-  p.count.y += rays;
-  p.count.z += p.count.y < rays ? 1u : 0u;
-  *pixel = p;
+  uint low = pixel->count[1] + rays;
+  pixel->count[0] += 1u;
+  pixel->count[1] = low;
+  pixel->count[2] += low < rays ? 1u : 0u;
 }
 
 #if PELLUCID_DEVICE

@@ -1,6 +1,6 @@
 // film_add: folds an iteration's samples (and its splats, if the method makes any) into the film.
 // Reads: samples [pixels], splats. Writes: film [pixels], splats (cleared), diag. Domain: pixels.
-// Flags: INTG_SPLAT. Atomics: diag only. Next: the next iteration.
+// Flags: INTG_SPLAT, INTG_SOBOL. Atomics: diag only. Next: the next iteration.
 #include "film/film.h"
 #include "passes/bundles.h"
 
@@ -19,5 +19,5 @@ __kernel void film_add(FILM_PARAMS
   sample.z += splat_value(word + 4, launch.splat_scale);
   for (int i = 0; i < 6; ++i) word[i] = 0u;
 #endif
-  film_accumulate(&film[pixel], diag, sample);
+  film_accumulate(&film[pixel], diag, launch, sample);
 }

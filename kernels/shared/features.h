@@ -28,6 +28,7 @@
   X(INTG_NEE, "next event estimation: a light sample at every non-delta vertex") \
   X(INTG_MIS, "emission found by chance and by NEE, weighted together")          \
   X(INTG_UNIFORM, "directions drawn uniformly, without importance sampling")     \
-  X(INTG_SPLAT, "contributions splatted to any pixel")
+  X(INTG_SPLAT, "contributions splatted to any pixel")                           \
+  X(INTG_SOBOL, "Owen-scrambled Sobol points instead of random numbers")
 
 #endif

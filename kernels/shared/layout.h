@@ -138,17 +138,24 @@ typedef struct Launch {
   uint max_depth;                // segments; an emitter seen directly has 1
   uint mis;                      // MIS_*
   float splat_scale;             // fixed-point steps per unit of radiance, a power of two
-  uint pad0;
+  int film_lsb;                  // exponent of the film's step: sums count multiples of 2^film_lsb
+  uint block_ends;               // 1: this iteration completes its block
+  uint pad0, pad1, pad2;
 } Launch;
-LAYOUT_CHECK(Launch, 48);
+LAYOUT_CHECK(Launch, 64);
 
-/// Accumulators of one pixel: each sum as high + low float, so that it neither stalls nor needs
-/// fp64. Written by film_add.
+#define FILM_SUM_WORDS 4
+#define FILM_SQUARE_WORDS 6
+/// Accumulators of one pixel: wide integers (shared/wide.h) per channel, so that sums neither stall
+/// nor depend on how the passes were split. Written by film_add.
 typedef struct FilmPixel {
-  F4 sum, sum_low;        // radiance, W/(m^2 sr); w unused
-  F4 square, square_low;  // squares of the iterations' totals; w unused
-  U4 count;               // x iterations, y rays (low word), z rays (high word), w unused
+  uint sum[3][FILM_SUM_WORDS];        // radiance of complete blocks, steps of 2^film_lsb
+  uint block[3][FILM_SUM_WORDS];      // of the block under way
+  uint square[3][FILM_SQUARE_WORDS];  // squares of complete blocks' totals, steps of
+                                      // 2^(2 film_lsb + FILM_SQUARE_DROP)
+  uint count[3];                      // iterations, rays (low word), rays (high word)
+  uint pad0, pad1, pad2;
 } FilmPixel;
-LAYOUT_CHECK(FilmPixel, 80);
+LAYOUT_CHECK(FilmPixel, 192);
 
 #endif

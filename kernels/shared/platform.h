@@ -19,6 +19,7 @@ typedef uint4 U4;
 #include <cstddef>
 #include <cstdint>
 using uint = std::uint32_t;
+using ulong = std::uint64_t;
 struct alignas(16) F4 {
   float x, y, z, w;
 };

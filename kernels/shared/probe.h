@@ -14,8 +14,8 @@
   X(Light, alias) X(Light, value) X(Light, position)                                      \
   X(SceneInfo, center_radius) X(SceneInfo, root) X(SceneInfo, environment)                \
   X(Camera, corner) X(Camera, dx) X(Camera, dy) X(Camera, forward)                        \
-  X(Launch, tile_width) X(Launch, max_depth) X(Launch, splat_scale)                           \
-  X(FilmPixel, sum_low) X(FilmPixel, square) X(FilmPixel, square_low) X(FilmPixel, count)
+  X(Launch, tile_width) X(Launch, max_depth) X(Launch, splat_scale) X(Launch, film_lsb)                           \
+  X(FilmPixel, block) X(FilmPixel, square) X(FilmPixel, count)
 // clang-format on
 
 #endif

@@ -78,7 +78,7 @@ TEST(DeviceTest, ParameterNamesAreTheBundles) {
   for (const Integrator& integrator : integrators()) {
     RenderOptions options;
     options.width = options.height = 8;
-    options.spp = 1;
+    options.passes = PassRange{0, 1};
     const Session session(device, packed, integrator, options);
     for (const PassState& pass : session.plan().passes()) {
       std::vector<std::string> expected = parameter_names(pass.pass);

@@ -43,12 +43,12 @@ std::vector<FilmPixel> film_of(int width, bool builtins) {
   const PackedScene packed = pack_scene(mixed_scene(), {width});
   RenderOptions options;
   options.width = options.height = 32;
-  options.spp = 4;
+  options.passes = PassRange{0, 4};
   options.plan.simd_builtins = builtins;
   Session session(device, packed, find_integrator("path"), options);
   session.run({});
   EXPECT_EQ(error_count(session.counters()), 0u);
-  return session.film();
+  return session.film().pixels;
 }
 
 bool same_bits(const std::vector<FilmPixel>& a, const std::vector<FilmPixel>& b) {

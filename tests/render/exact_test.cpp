@@ -24,14 +24,8 @@ Build build_of(const char* method) {
   return b;
 }
 
-std::vector<FilmPixel> film_of(const Scene& scene, const Build& build) {
+Film film_of(const Scene& scene, const Build& build) {
   return session_render(scene, build, short_run).film;
-}
-
-std::size_t different_pixels(const std::vector<FilmPixel>& a, const std::vector<FilmPixel>& b) {
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) n += !same_film({a[i]}, {b[i]});
-  return n;
 }
 
 /// All lengths times 2^k: rounding commutes with powers of two. Intensities of points go with the
@@ -138,17 +132,17 @@ TEST(Exact, scale_of_the_world) {
 // What a render has after n iterations is what a render of n iterations gives, whatever the
 // batches.
 TEST(Exact, shorter_render_is_the_beginning_of_a_longer_one) {
-  std::vector<std::vector<FilmPixel>> stages;
+  std::vector<Film> stages;
   RenderHooks hooks;
-  hooks.wants_image = [] { return true; };
-  hooks.image = [&](const std::vector<FilmPixel>& film) { stages.push_back(film); };
+  hooks.wants_film = [] { return true; };
+  hooks.film = [&](const Film& film) { stages.push_back(film); };
   Sampling long_run = short_run;
   long_run.spp = 2000;
   session_render(everything(), build_of("path"), long_run, hooks);
   ASSERT_GE(stages.size(), 2u);
-  for (const auto& stage : stages) {
+  for (const Film& stage : stages) {
     Sampling run = short_run;
-    run.spp = stage.at(0).count.x;
+    run.spp = stage.passes.count();
     EXPECT_TRUE(same_film(stage, session_render(everything(), build_of("path"), run).film))
         << run.spp << " iterations";
   }

@@ -11,6 +11,7 @@
 
 #include "integrators/registry.h"
 #include "scene/load.h"
+#include "shared/limits.h"
 
 namespace pellucid::test {
 namespace {
@@ -30,18 +31,6 @@ PlanOptions plan_options(const Build& build) {
   // Mutation tests point this at a copy of kernels/ with a planted fault.
   if (const char* folder = std::getenv("PELLUCID_TEST_KERNELS")) o.kernel_dir = folder;
   return o;
-}
-
-/// Difference of two sums of two floats each, good to 2^-48 of the larger.
-void subtract(const F4& a, const F4& a_low, const F4& b, const F4& b_low, F4& high, F4& low) {
-  const auto one = [](float a1, float a2, float b1, float b2, float& h, float& l) {
-    const double d = (double(a1) - double(b1)) + (double(a2) - double(b2));
-    h = float(d);
-    l = float(d - double(h));
-  };
-  one(a.x, a_low.x, b.x, b_low.x, high.x, low.x);
-  one(a.y, a_low.y, b.y, b_low.y, high.y, low.y);
-  one(a.z, a_low.z, b.z, b_low.z, high.z, low.z);
 }
 
 void expect_no_errors(const std::vector<Counter>& counters) {
@@ -77,9 +66,12 @@ double Estimate::error() const {
   return std::sqrt(variance);
 }
 
-Picture::Picture(std::vector<FilmPixel> accumulated, int w, int h)
-    : width(w), height(h), film(std::move(accumulated)), pixels(film.size()) {
-  const Image image = film_image(film, w, h, true, false);
+Picture::Picture(Film accumulated)
+    : width(accumulated.window.width),
+      height(accumulated.window.height),
+      film(std::move(accumulated)),
+      pixels(film.pixels.size()) {
+  const Image image = film_image(film, true, false);
   for (std::size_t i = 0; i < pixels.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
       pixels[i][c] = {image.data[6 * i + c], image.data[6 * i + 3 + c]};
@@ -99,11 +91,9 @@ double Picture::effective_samples(int channel, int x0, int y0, int block) const 
   double sum = 0, square = 0;
   for (int y = y0; y < std::min(y0 + block, height); ++y)
     for (int x = x0; x < std::min(x0 + block, width); ++x) {
-      const FilmPixel& p = film[std::size_t(y * width + x)];
-      const float s[3] = {p.sum.x, p.sum.y, p.sum.z};
-      const float q[3] = {p.square.x, p.square.y, p.square.z};
-      sum += s[channel];
-      square += q[channel];
+      const Film::Sums s = film.sums(std::size_t(y * width + x));
+      sum += s.sum[std::size_t(channel)];
+      square += s.square[std::size_t(channel)];
     }
   return square > 0 ? sum * sum / square : 0;
 }
@@ -117,16 +107,24 @@ double Picture::block_mean(int channel, int x0, int y0, int block) const {
   return sum / n;
 }
 
-bool same_film(const std::vector<FilmPixel>& a, const std::vector<FilmPixel>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+std::size_t different_pixels(const Film& a, const Film& b) {
+  if (a.pixels.size() != b.pixels.size()) return std::max(a.pixels.size(), b.pixels.size());
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    n += std::memcmp(&a.pixels[i], &b.pixels[i], sizeof(FilmPixel)) != 0;
+  return n;
+}
+
+bool same_film(const Film& a, const Film& b) {
+  return different_pixels(a, b) == 0 && a.passes.text() == b.passes.text() && a.lsb == b.lsb &&
+         a.current == b.current && a.open == b.open;
 }
 
 Renderer::Renderer(const Scene& scene, const Build& build)
     : build_(build),
       packed_(pack(scene, build)),
       plan_(test_device(), packed_, find_integrator(build.method), plan_options(build),
-            uint(build.width), uint(build.height)),
-      before_(std::size_t(build.width) * std::size_t(build.height)) {}
+            std::size_t(build.width) * std::size_t(build.height)) {}
 
 void Renderer::check_counters() {
   std::vector<Counter> counters = make_counters();
@@ -142,6 +140,9 @@ Picture Renderer::render(const Sampling& run) {
   launch.seed = uint(run.seed) * 2654435769u + 12345u;  // any spread will do
   launch.max_depth = run.max_depth.value_or(NONE);
   launch.mis = run.mis;
+  launch.film_lsb = packed_.brightness_exponent - FILM_FRACTION_BITS;
+  Film film(build_.width, build_.height, {0, 0, build_.width, build_.height}, launch.film_lsb, 1);
+  plan_.write_film(film.pixels.data(), film.pixels.size());
   for (std::uint64_t i = 0; i < run.spp; ++i) {
     launch.iteration = uint(i);
     plan_.enqueue(launch);
@@ -149,17 +150,9 @@ Picture Renderer::render(const Sampling& run) {
   }
   plan_.finish();
   check_counters();
-  const std::vector<FilmPixel> after = plan_.read_film();
-  std::vector<FilmPixel> added(after.size());
-  for (std::size_t i = 0; i < after.size(); ++i) {
-    subtract(after[i].sum, after[i].sum_low, before_[i].sum, before_[i].sum_low, added[i].sum,
-             added[i].sum_low);
-    subtract(after[i].square, after[i].square_low, before_[i].square, before_[i].square_low,
-             added[i].square, added[i].square_low);
-    added[i].count.x = after[i].count.x - before_[i].count.x;
-  }
-  before_ = after;
-  return Picture(std::move(added), build_.width, build_.height);
+  plan_.read_film(film.pixels.data(), film.pixels.size());
+  film.passes.add({0, run.spp});
+  return Picture(std::move(film));
 }
 
 std::uint64_t Renderer::spp_for(const Sampling& run, double relative, std::uint64_t most) {
@@ -182,7 +175,7 @@ Picture session_render(const Scene& scene, const Build& build, const Sampling& r
   RenderOptions o;
   o.width = build.width;
   o.height = build.height;
-  o.spp = run.spp;
+  o.passes = PassRange{0, run.spp};
   o.seed = run.seed;
   o.max_depth = run.max_depth;
   o.mis = run.mis;
@@ -190,7 +183,7 @@ Picture session_render(const Scene& scene, const Build& build, const Sampling& r
   Session session(test_device(), packed, find_integrator(build.method), o);
   session.run(hooks);
   expect_no_errors(session.counters());
-  return Picture(session.film(), build.width, build.height);
+  return Picture(session.film());
 }
 
 std::string judge(const Estimate& e, double expected, double slack) {

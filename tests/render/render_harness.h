@@ -43,10 +43,10 @@ struct Estimate {
 
 struct Picture {
   int width = 0, height = 0;
-  std::vector<FilmPixel> film;
+  Film film;
   std::vector<std::array<Estimate, 3>> pixels;  ///< out of film_image()
 
-  Picture(std::vector<FilmPixel> accumulated, int w, int h);
+  explicit Picture(Film accumulated);
   Estimate image(int channel) const;
   /// (sum x)^2 / sum x^2 over the samples of a block of pixels: how many of them matter.
   double effective_samples(int channel, int x0, int y0, int block) const;
@@ -54,7 +54,9 @@ struct Picture {
 };
 
 /// The same bits in every accumulator of every pixel.
-bool same_film(const std::vector<FilmPixel>& a, const std::vector<FilmPixel>& b);
+bool same_film(const Film& a, const Film& b);
+/// Pixels that differ in any accumulator.
+std::size_t different_pixels(const Film& a, const Film& b);
 
 struct Sampling {
   std::uint64_t spp = 64, seed = 1;
@@ -78,7 +80,6 @@ class Renderer {
   Build build_;
   PackedScene packed_;
   Plan plan_;
-  std::vector<FilmPixel> before_;  ///< the plan's film goes on: a picture is what a run adds to it
 };
 
 /// The same through a Session, as the program renders.

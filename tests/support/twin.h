@@ -15,6 +15,7 @@
 #include "pack/pack.h"
 #include "shared/buffers.h"
 #include "shared/features.h"
+#include "shared/film_sums.h"
 #include "shared/layout.h"
 #include "shared/limits.h"
 #include "support/twin_prelude.h"

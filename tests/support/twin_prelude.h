@@ -26,3 +26,6 @@
 #define INTG_MIS 1
 #define INTG_UNIFORM 0
 #define INTG_SPLAT 0
+#ifndef INTG_SOBOL
+#define INTG_SOBOL 0
+#endif

@@ -19,5 +19,6 @@
 #undef FEAT_TRIANGLES
 #undef INTG_MIS
 #undef INTG_NEE
+#undef INTG_SOBOL
 #undef INTG_SPLAT
 #undef INTG_UNIFORM

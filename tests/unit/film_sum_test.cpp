@@ -1,5 +1,8 @@
-// The film's sums: they do not stall, whatever the order of magnitudes, and drop what is no number.
+// The film's sums: exact whole numbers, the same bits for any order and any grouping of passes, and
+// drops of what is no number.
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "support/test_scenes.h"
 #include "support/twin.h"
@@ -9,85 +12,154 @@ namespace {
 using namespace twin;
 using pellucid::test::Random;
 
-/// Twice where a plain float sum of U(0,1) has lost half of its value (numerics 21).
-constexpr uint many = 1u << 27;
+constexpr int lsb = -FILM_FRACTION_BITS;  // a scene whose brightest light has radiance 1
 
-struct Sum {
-  float high = 0, low = 0;
-  void add(float x) { sum_add(&high, &low, x); }
-  double value() const { return double(high) + low; }
-};
+__extension__ using Uint128 = unsigned __int128;
 
-TEST(FilmSum, ConstantOne) {
-  Sum sum;
-  float naive = 0;
-  for (uint i = 0; i < many; ++i) sum.add(1.0f), naive += 1.0f;
-  EXPECT_EQ(sum.value(), double(many));
-  EXPECT_EQ(naive, 16777216.0f) << "the test is long enough for a plain sum to stall";
+long double value_of(const uint* words, int count, int exponent) {
+  long double value = 0;
+  for (int i = count - 1; i >= 0; --i) value = value * 0x1p32L + words[i];
+  return std::ldexp(value, exponent);
 }
 
-TEST(FilmSum, UniformNumbers) {
-  Sum sum;
-  double exact = 0;
-  uint state = 1;
-  for (uint i = 0; i < many; ++i) {
-    state = state * 1664525u + 1013904223u;
-    const float u = rng_unit(state);
-    sum.add(u);
-    exact += u;  // sums of multiples of 2^-24 below 2^29 are exact in double
-  }
-  EXPECT_NEAR(sum.value() / many, exact / many, 1e-6);
-  EXPECT_NEAR(sum.value() / exact, 1.0, many * 0x1p-48);  // the bound that film.h states
+double sum_of(const FilmPixel& p, int channel = 0) {
+  return double(value_of(p.sum[channel], FILM_SUM_WORDS, lsb));
+}
+double square_of(const FilmPixel& p, int channel = 0) {
+  return double(value_of(p.square[channel], FILM_SQUARE_WORDS, 2 * lsb + FILM_SQUARE_DROP));
 }
 
-TEST(FilmSum, DimAfterBright) {
-  // 1e-2 vanishes beside 2^24 * 1e6 in float; all dim values together are 1e-3 of the sum's digits.
-  constexpr uint n = 1u << 24;
-  Sum mixed, bright_first;
-  for (uint i = 0; i < n; ++i) mixed.add(i % 1024 == 0 ? 1e6f : 1e-2f);
-  double exact = 0;
-  for (uint i = 0; i < n; ++i) exact += double(i % 1024 == 0 ? 1e6f : 1e-2f);
-  EXPECT_NEAR(mixed.value() / exact, 1.0, n * 0x1p-48);  // the bound that film.h states
-  for (uint i = 0; i < 1000; ++i) bright_first.add(1e6f);
-  const double bright = bright_first.value();
-  for (uint i = 0; i < n; ++i) bright_first.add(1e-2f);
-  EXPECT_NEAR((bright_first.value() - bright) / (n * double(1e-2f)), 1.0, 1e-4);
-}
-
-TEST(FilmSum, OrderOfMagnitudesDoesNotMatter) {
-  Random random(1);
-  for (int run = 0; run < 1000; ++run) {
-    Sum sum;
-    double exact = 0;
-    for (int i = 0; i < 100; ++i) {
-      const float x = float(std::pow(10.0, random.uniform(-10, 10)));
-      sum.add(x);
-      exact += x;
+TEST(Wide, AddsAtAnyPlaceWithCarry) {
+  Random random(3);
+  for (int run = 0; run < 20000; ++run) {
+    // 128 bits by hand beside the words.
+    Uint128 expected = 0;
+    uint words[4] = {};
+    for (int i = 0; i < 8; ++i) {
+      WideValue v;
+      v.mantissa = (ulong{random.word()} << 16) | (random.word() & 0xffffu);  // 48 bits
+      v.exponent = int(random.below(76));
+      expected += Uint128(v.mantissa) << v.exponent;
+      wide_add(words, 4, v);
     }
-    ASSERT_NEAR(sum.value() / exact, 1.0, 1e-12);
+    for (int i = 0; i < 4; ++i) ASSERT_EQ(words[i], uint(expected >> (32 * i))) << run;
+  }
+}
+
+TEST(Wide, CarriesThroughAllWords) {
+  uint words[4] = {~0u, ~0u, ~0u, 0u};
+  wide_add(words, 4, WideValue{1, 0});
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(words[i], 0u);
+  EXPECT_EQ(words[3], 1u);
+}
+
+TEST(Wide, RoundsToTheNearest) {
+  EXPECT_EQ(wide_round({5, -1}).mantissa, 3u);  // 2.5: ties go up
+  EXPECT_EQ(wide_round({5, -2}).mantissa, 1u);  // 1.25
+  EXPECT_EQ(wide_round({7, -2}).mantissa, 2u);  // 1.75
+  EXPECT_EQ(wide_round({0xffffff, -24}).mantissa, 1u);
+  EXPECT_EQ(wide_round({0xffffff, -25}).mantissa, 0u);
+  EXPECT_EQ(wide_round({0xffffff, -500}).mantissa, 0u);
+  EXPECT_EQ(wide_round({3, 4}).exponent, 4);
+}
+
+TEST(Wide, TakesFloatsApart) {
+  Random random(4);
+  for (int i = 0; i < 100000; ++i) {
+    float x;
+    const uint bits = random.word() & 0x7fffffffu;
+    if (bits >= 0x7f800000u) continue;
+    std::memcpy(&x, &bits, sizeof x);
+    const WideValue v = wide_from_float(bits);
+    ASSERT_EQ(std::ldexp(double(v.mantissa), v.exponent), double(x));
+  }
+  EXPECT_EQ(wide_from_float(0x80000000u).mantissa, 0u) << "minus zero is black";
+}
+
+TEST(Wide, TopOfASumKeepsThirtyTwoBits) {
+  Random random(5);
+  for (int run = 0; run < 100000; ++run) {
+    uint words[4];
+    const unsigned used = 1 + random.below(4);
+    for (unsigned i = 0; i < 4; ++i) words[i] = i < used ? random.word() >> random.below(32) : 0u;
+    const long double exact = value_of(words, 4, 0);
+    const WideValue v = wide_top(words, 4);
+    const long double top = std::ldexp((long double)v.mantissa, v.exponent);
+    ASSERT_LE(v.mantissa, 0xffffffffu);
+    ASSERT_LE(top, exact);
+    ASSERT_LE(exact - top, exact * 0x1p-31L);
   }
 }
 
 class FilmAccumulate : public ::testing::Test {
  protected:
+  FilmAccumulate() { launch.film_lsb = lsb; }
   void add(float x, float y, float z, float rays = 3) {
-    film_accumulate(&pixel, diag.data(), F4{x, y, z, rays});
+    film_accumulate(&pixel, diag.data(), launch, F4{x, y, z, rays});
   }
+  Launch launch{};
   FilmPixel pixel{};
   std::vector<uint> diag = std::vector<uint>(DIAG_COUNT, 0);
+  int flaw_ = 0;
 };
 
 TEST_F(FilmAccumulate, SumsSquaresAndCounts) {
   add(1, 2, 3);
   add(0.5f, 0, 4, 5);
-  EXPECT_EQ(pixel.sum.x, 1.5f);
-  EXPECT_EQ(pixel.sum.y, 2.0f);
-  EXPECT_EQ(pixel.sum.z, 7.0f);
-  EXPECT_EQ(pixel.square.x, 1.25f);
-  EXPECT_EQ(pixel.square.y, 4.0f);
-  EXPECT_EQ(pixel.square.z, 25.0f);
-  EXPECT_EQ(pixel.count.x, 2u);
-  EXPECT_EQ(pixel.count.y, 8u);
+  EXPECT_EQ(sum_of(pixel, 0), 1.5);
+  EXPECT_EQ(sum_of(pixel, 1), 2.0);
+  EXPECT_EQ(sum_of(pixel, 2), 7.0);
+  EXPECT_EQ(square_of(pixel, 0), 1.25);
+  EXPECT_EQ(square_of(pixel, 1), 4.0);
+  EXPECT_EQ(square_of(pixel, 2), 25.0);
+  EXPECT_EQ(pixel.count[0], 2u);
+  EXPECT_EQ(pixel.count[1], 8u);
+}
+
+TEST_F(FilmAccumulate, NeverStalls) {
+  constexpr uint many = 1u << 26;  // where a plain float sum of U(0,1) has stalled (numerics 21)
+  ulong exact = 0;
+  uint state = 1;
+  for (uint i = 0; i < many; ++i) {
+    state = state * 1664525u + 1013904223u;
+    const float u = rng_unit(state);
+    exact += ulong(u * 0x1p24f);
+    add(u, 0, 0);
+  }
+  EXPECT_EQ(sum_of(pixel), double(exact) * 0x1p-24) << "every bit of every sample";
+}
+
+TEST_F(FilmAccumulate, OrderDoesNotMatter) {
+  Random random(6);
+  std::vector<float> values;
+  for (int i = 0; i < 2000; ++i) values.push_back(float(std::pow(10.0, random.uniform(-14, 9))));
+  for (float v : values) add(v, v, v);
+  const FilmPixel first = pixel;
+  pixel = {};
+  std::sort(values.begin(), values.end());
+  for (float v : values) add(v, v, v);
+  EXPECT_EQ(std::memcmp(&first, &pixel, sizeof pixel), 0);
+  EXPECT_EQ(diag[DIAG_film_saturated], 0u);
+}
+
+TEST_F(FilmAccumulate, SquaresOfAllMagnitudes) {
+  for (double x : {1e-9, 1e-6, 1.0, 1e5, 1e9}) {
+    pixel = {};
+    for (int i = 0; i < 100; ++i) add(float(x), 0, 0);
+    const double exact = 100 * double(float(x)) * double(float(x));
+    // A square is rounded to a step of 2^-84: half a step each.
+    EXPECT_NEAR(square_of(pixel), exact, exact * 1e-12 + 50 * 0x1p-84) << x;
+  }
+}
+
+TEST_F(FilmAccumulate, CountsWhatDoesNotFit) {
+  add(1e30f, 1, 1);
+  EXPECT_EQ(diag[DIAG_film_saturated], 1u);
+  EXPECT_LE(sum_of(pixel), std::ldexp(1.0, FILM_SAMPLE_BITS + lsb));
+  add(1e-17f, 1, 1);
+  EXPECT_EQ(diag[DIAG_film_faint], 1u);
+  add(0, 0, 0);
+  EXPECT_EQ(diag[DIAG_film_faint], 1u) << "black is exact";
 }
 
 TEST_F(FilmAccumulate, DropsAndCountsWhatIsNoRadiance) {
@@ -103,17 +175,29 @@ TEST_F(FilmAccumulate, DropsAndCountsWhatIsNoRadiance) {
   add(0, -0.0f, 0);  // minus zero is black
   EXPECT_EQ(diag[DIAG_negative], 2u);
   // Each dropped sample counts as 0: it stays in the number of iterations.
-  EXPECT_EQ(pixel.count.x, 9u);
-  EXPECT_EQ(pixel.sum.x, 1.0f);
-  EXPECT_EQ(pixel.sum.y, 1.0f);
-  EXPECT_EQ(pixel.square.z, 1.0f);
+  EXPECT_EQ(pixel.count[0], 9u);
+  EXPECT_EQ(sum_of(pixel, 0), 1.0);
+  EXPECT_EQ(sum_of(pixel, 1), 1.0);
+  EXPECT_EQ(square_of(pixel, 2), 1.0);
 }
 
 TEST_F(FilmAccumulate, RaysCarryIntoTheHighWord) {
-  pixel.count.y = 0xfffffffeu;
+  pixel.count[1] = 0xfffffffeu;
   add(0, 0, 0, 5);
-  EXPECT_EQ(pixel.count.y, 3u);
-  EXPECT_EQ(pixel.count.z, 1u);
+  EXPECT_EQ(pixel.count[1], 3u);
+  EXPECT_EQ(pixel.count[2], 1u);
+}
+
+TEST_F(FilmAccumulate, BlocksJoinTheSums) {
+  const float totals[2] = {6.0f, 10.0f};
+  for (float total : totals) {
+    wide_add(pixel.block[0], FILM_SUM_WORDS, film_steps(total / 2, lsb, &flaw_));
+    wide_add(pixel.block[0], FILM_SUM_WORDS, film_steps(total / 2, lsb, &flaw_));
+    film_end_block(&pixel);
+    EXPECT_EQ(value_of(pixel.block[0], FILM_SUM_WORDS, lsb), 0);
+  }
+  EXPECT_EQ(sum_of(pixel), 16.0);
+  EXPECT_EQ(square_of(pixel), 136.0);
 }
 
 }  // namespace

@@ -1,0 +1,107 @@
+// merge: checkpoints of disjoint passes to one picture or checkpoint.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "apps/command.h"
+#include "apps/common.h"
+#include "apps/outputs.h"
+#include "apps/render_report.h"
+#include "base/files.h"
+#include "base/log.h"
+#include "render/checkpoint.h"
+
+namespace pellucid {
+namespace {
+
+struct MergeFlags {
+  std::vector<std::string> inputs, outputs, aovs;
+  bool deterministic = false;
+};
+
+bool names_checkpoint(const std::string& name) {
+  const std::string suffix = ".ckpt";
+  return name.size() > suffix.size() &&
+         name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
+}
+
+/// Holes are allowed, since another worker may still be busy, but not in silence.
+void warn_of_gaps(const PassSet& passes) {
+  const auto& ranges = passes.ranges();
+  PassSet gaps;
+  for (const PassRange& gap : passes.missing({0, ranges.back().last})) gaps.add(gap);
+  if (!gaps.empty()) log_warn("passes {} are missing; the rest is a valid picture", gaps.text());
+}
+
+Checkpoint merged(const std::vector<std::string>& names) {
+  Checkpoint all = read_checkpoint(names.front());
+  std::vector<PassSet> passes = {all.film.passes};
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    const Checkpoint next = read_checkpoint(names[i]);
+    std::size_t other = 0;  // the file to name beside this one: that whose passes it repeats
+    for (std::size_t k = 0; k < i; ++k)
+      if (passes[k].overlaps(next.film.passes)) other = k;
+    merge_checkpoint(all, names[other], next, names[i]);
+    passes.push_back(next.film.passes);
+  }
+  return all;
+}
+
+Image picture_of(const Checkpoint& c, const MergeFlags& flags) {
+  const auto asked = [&](const char* aov) {
+    return std::find(flags.aovs.begin(), flags.aovs.end(), aov) != flags.aovs.end();
+  };
+  Image image = film_image(c.film, asked("variance"), asked("samples"));
+  image.metadata = c.evidence;
+  add_progress(c.film, summarise(c.film), c.counters, c.seconds, image.metadata);
+  if (flags.deterministic) make_deterministic(image.metadata);
+  return image;
+}
+
+ExitCode merge(const MergeFlags& flags, const CommonOptions& common) {
+  std::vector<std::string> pictures, checkpoints;
+  for (const std::string& name : flags.outputs) {
+    (names_checkpoint(name) ? checkpoints : pictures).push_back(name);
+    check_writable(name);
+  }
+  check_picture_types(pictures);
+  for (const std::string& aov : flags.aovs)
+    if (aov != "variance" && aov != "samples")
+      throw UsageError("--aov: there is no '" + aov + "'; there are variance, samples");
+  Checkpoint all = merged(flags.inputs);
+  warn_of_gaps(all.film.passes);
+  for (const std::string& name : checkpoints) write_checkpoint(name, all);
+  if (!pictures.empty()) write_pictures(pictures, picture_of(all, flags));
+  log_info("{} files, passes {}", flags.inputs.size(), all.film.passes.text());
+  if (common.wants_text())
+    for (const std::string& name : flags.outputs) print_result(name + "\n");
+  write_json(common.json, {{"inputs", flags.inputs},
+                           {"outputs", flags.outputs},
+                           {"passes", all.film.passes.text()},
+                           {"spp", all.film.passes.count()}});
+  return ExitCode::done;
+}
+
+}  // namespace
+
+CommandRun setup_merge(CLI::App& app) {
+  auto flags = std::make_shared<MergeFlags>();
+  app.add_option("CKPT", flags->inputs, "checkpoints of the same render with different passes")
+      ->required();
+  app.add_option("-o,--output", flags->outputs,
+                 "picture to write, type by suffix, or a checkpoint (.ckpt); repeatable")
+      ->type_name("FILE")
+      ->required()
+      ->allow_extra_args(false);
+  app.add_option("--aov", flags->aovs,
+                 "further EXR channels: variance (of each pixel's mean), samples")
+      ->type_name("LIST")
+      ->delimiter(',');
+  app.add_flag("--deterministic", flags->deterministic,
+               "leave time, host and device out of the image");
+  app.footer("Example: pellucid merge a.ckpt b.ckpt -o whole.exr -o whole.png");
+  return [flags](const CommonOptions& common) { return merge(*flags, common); };
+}
+
+}  // namespace pellucid

@@ -1,0 +1,46 @@
+// Renders on disk, to go on with and to merge: a film of some passes, exactly, with the identity of
+// what was rendered. The file is OpenEXR with whole-number channels, whatever its name.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+#include "render/diagnostics.h"
+#include "render/film.h"
+
+namespace pellucid {
+
+struct Checkpoint {
+  Film film;
+  /// What must agree for films to be of the same picture: name -> value, e.g. "seed" -> "7".
+  std::map<std::string, std::string> identity;
+  std::map<std::string, MetaValue> evidence;  ///< metadata of the picture so far
+  std::vector<Counter> counters = make_counters();
+  double seconds = 0;  ///< render time of all passes
+  Image aovs;          ///< channels beside the film's, as finished; may have none
+};
+
+/// Sentence on the first thing in which two identities differ, or "".
+std::string difference(const std::map<std::string, std::string>& a,
+                       const std::map<std::string, std::string>& b);
+
+/// Appears whole or not at all. Throws OutputError.
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
+
+/// Throws InputError for what is none, is damaged, or of another version.
+Checkpoint read_checkpoint(const std::string& path);
+
+/// Whether the metadata of an image is a checkpoint's.
+bool is_checkpoint(const std::map<std::string, MetaValue>& metadata);
+
+/// Adds the passes of `other` to `into`. Throws InputError that names both files where they are of
+/// different pictures or share passes.
+void merge_checkpoint(Checkpoint& into, const std::string& into_name, const Checkpoint& other,
+                      const std::string& other_name);
+
+/// Hash of all kernel sources: films of different kernels do not mix.
+std::string kernels_hash(const std::string& kernel_dir);
+
+}  // namespace pellucid

@@ -1,0 +1,104 @@
+// Sizes of buffers, and the largest tile that keeps all of them within the limits.
+#include "render/memory.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "render/plan.h"
+#include "shared/buffers.h"
+
+namespace pellucid {
+namespace {
+
+bool uses(const Integrator& integrator, Bundle bundle) {
+  for (const Pass& pass : integrator.passes)
+    for (Bundle b : pass.bundles)
+      if (b == bundle) return true;
+  return false;
+}
+
+std::uint64_t total(const std::map<std::string, std::size_t>& buffers) {
+  std::uint64_t sum = 0;
+  for (const auto& [name, bytes] : buffers) sum += bytes;
+  return sum;
+}
+
+/// Why these buffers do not fit, or "".
+std::string objection(const DeviceInfo& device, std::uint64_t limit,
+                      const std::map<std::string, std::size_t>& buffers) {
+  for (const auto& [name, bytes] : buffers)
+    if (bytes > device.max_buffer)
+      return fmt::format("buffer '{}' needs {}, but one buffer on {} holds at most {}", name,
+                         format_bytes(bytes), device.name, format_bytes(device.max_buffer));
+  if (total(buffers) <= limit) return "";
+  return fmt::format("this render needs {} of device memory, but {}", format_bytes(total(buffers)),
+                     limit < device.memory
+                         ? fmt::format("--memory allows {}", format_bytes(limit))
+                         : fmt::format("{} has {}", device.name, format_bytes(limit)));
+}
+
+void check_host(std::uint64_t film_bytes) {
+  const auto memory = std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
+  if (film_bytes > memory)
+    throw DeviceError(fmt::format(
+        "the film of this picture needs {} of the host's memory, which has {}; render parts of it "
+        "with --crop, or a smaller --size",
+        format_bytes(film_bytes), format_bytes(memory)));
+}
+
+}  // namespace
+
+std::uint64_t MemoryPlan::device_bytes() const {
+  return total(buffers);
+}
+
+std::size_t MemoryPlan::tile_pixels() const {
+  return tiles.front().pixels();  // the last one may be smaller
+}
+
+std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
+                                                const Integrator& integrator, std::size_t pixels) {
+  std::map<std::string, std::size_t> bytes;
+#define PELLUCID_SCENE_BYTES(T, name, meaning) bytes[#name] = scene.name.size() * sizeof(T);
+  SCENE_BUFFERS(PELLUCID_SCENE_BYTES)
+#undef PELLUCID_SCENE_BYTES
+  bytes["samples"] = pixels * sizeof(F4);
+  bytes["film"] = pixels * sizeof(FilmPixel);
+  bytes["diag"] = DIAG_COUNT * sizeof(uint);
+  constexpr std::size_t words_per_pixel = 6;  // three channels of 64 bits
+  if (uses(integrator, Bundle::splat)) bytes["splats"] = pixels * words_per_pixel * sizeof(uint);
+  return bytes;
+}
+
+MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
+                       const Integrator& integrator, const Window& window,
+                       std::optional<std::uint64_t> limit) {
+  const std::uint64_t most = std::min(limit.value_or(device.memory), device.memory);
+  const auto sizes = [&](int rows) {
+    return buffer_sizes(scene, integrator, std::size_t(rows) * std::size_t(window.width));
+  };
+  const auto fits = [&](int rows) { return objection(device, most, sizes(rows)).empty(); };
+  MemoryPlan plan;
+  plan.film_bytes = window.pixels() * sizeof(FilmPixel);
+  check_host(plan.film_bytes);
+  if (!fits(1)) throw DeviceError(objection(device, most, sizes(1)));
+  int low = 1, high = window.height;  // bisection: what `low` rows need fits
+  while (low < high) {
+    const int middle = low + (high - low + 1) / 2;
+    if (fits(middle))
+      low = middle;
+    else
+      high = middle - 1;
+  }
+  plan.buffers = sizes(low);
+  for (int row = 0; row < window.height; row += low)
+    plan.tiles.push_back(
+        {window.x0, window.y0 + row, window.width, std::min(low, window.height - row)});
+  return plan;
+}
+
+}  // namespace pellucid
