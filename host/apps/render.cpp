@@ -71,7 +71,7 @@ void RenderJob::prepare() {
   if (flags_.strict && !scene_.warnings.empty())
     throw InputError("--strict: the warnings above are errors");
   facts_.scene_hash = scene_hash(scene_);
-  facts_.kernels_hash = kernels_hash(flags_.kernel_dir);
+  facts_.kernels_hash = kernels_hash(*facts_.integrator, flags_.kernel_dir);
   check_outputs();
 }
 

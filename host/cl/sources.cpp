@@ -55,13 +55,6 @@ struct Expander {
 
 }  // namespace
 
-std::vector<std::string> KernelFiles::names() {
-  std::vector<std::string> names;
-  for (unsigned i = 0; i < cl_detail::embedded_file_count; ++i)
-    names.push_back(cl_detail::embedded_files[i].name);
-  return names;
-}
-
 std::string KernelFiles::read(const std::string& name) const {
   if (!folder_.empty()) return read_text(folder_ + "/" + name);
   for (unsigned i = 0; i < cl_detail::embedded_file_count; ++i)

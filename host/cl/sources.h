@@ -11,9 +11,6 @@ class KernelFiles {
  public:
   explicit KernelFiles(std::string folder = "") : folder_(std::move(folder)) {}
 
-  /// Every file inside the binary, by path below kernels/.
-  static std::vector<std::string> names();
-
   /// Text of `name` (path below kernels/). Throws InputError if there is none.
   std::string read(const std::string& name) const;
 

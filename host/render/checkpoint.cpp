@@ -291,10 +291,11 @@ void merge_checkpoint(Checkpoint& into, const std::string& into_name, const Chec
     into.counters[i].count += other.counters[i].count;
 }
 
-std::string kernels_hash(const std::string& kernel_dir) {
+std::string kernels_hash(const Integrator& integrator, const std::string& kernel_dir) {
   const KernelFiles files(kernel_dir);
   Hasher hasher;
-  for (const std::string& name : KernelFiles::names()) hasher.add(name).add(files.read(name));
+  for (const Pass& pass : integrator.passes)
+    hasher.add(files.expand("passes/" + pass.name + ".cl", ""));
   return hasher.hex();
 }
 

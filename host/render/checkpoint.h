@@ -9,6 +9,7 @@
 #include "image/image.h"
 #include "render/diagnostics.h"
 #include "render/film.h"
+#include "render/integrator.h"
 
 namespace pellucid {
 
@@ -40,7 +41,8 @@ bool is_checkpoint(const std::map<std::string, MetaValue>& metadata);
 void merge_checkpoint(Checkpoint& into, const std::string& into_name, const Checkpoint& other,
                       const std::string& other_name);
 
-/// Hash of all kernel sources: films of different kernels do not mix.
-std::string kernels_hash(const std::string& kernel_dir);
+/// Hash of a method's kernels with all they include: films of different kernels do not mix. Throws
+/// InputError where a file is missing.
+std::string kernels_hash(const Integrator& integrator, const std::string& kernel_dir);
 
 }  // namespace pellucid

@@ -180,7 +180,7 @@ def test_stats():
     check(0.5 * seconds["render"] < busy <= seconds["render"], "passes fill the render", busy)
     check(all(count == 0 for count in stats["counters"].values()), "counters", stats["counters"])
     check({"nonfinite", "negative", "stack_overflow"} <= set(stats["counters"]), "counter names")
-    check(stats["memory_bytes"]["film"] == 80 * WIDTH * HEIGHT, "memory", stats["memory_bytes"])
+    check(stats["memory_bytes"]["film"] == 192 * WIDTH * HEIGHT, "memory", stats["memory_bytes"])
     check(0 < stats["error_estimate"]["relmse"] < 0.1, "error", stats["error_estimate"])
     check("confidence" in stats["error_estimate"], "error_estimate has confidence")
     check(all(isinstance(on, bool) for on in stats["features"].values()), "features are booleans")

@@ -163,7 +163,8 @@ def test_z_plain_progress_ends():
     with open("plain.txt", encoding="utf-8") as file:
         text = file.read()
     check(code == 0 and "\x1b" not in text and "\r" not in text, "plain lines are plain", text)
-    check(text.count("path on 0:0 ") == 1 and text.count("\n") == 2, "one line in 10 s", text)
+    lines = [line for line in text.split("\n") if not line.startswith("building")]  # on a busy machine
+    check(text.count("path on 0:0 ") == 1 and len(lines) == 3, "one line in 10 s", text)
 
 
 run_tests(globals())
