@@ -92,9 +92,9 @@ void write_file(const std::string& path, const Write& write) {
 
 }  // namespace
 
-Image read_image(const std::string& path, bool linearise) {
+Image read_image(const std::string& path, bool linearise, std::size_t most_pixels) {
   Image image;
-  read_file(path, [&] { return plugin().read(path, linearise, image); });
+  read_file(path, [&] { return plugin().read(path, linearise, most_pixels, image); });
   return image;
 }
 

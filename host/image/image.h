@@ -2,6 +2,7 @@
 // 260 shared objects at start-up, so it lives behind dlopen: only commands that touch images pay.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <variant>
@@ -53,9 +54,11 @@ void load_image_library();
 /// Reads any format the image library knows, the first picture in the file, all channels as float32
 /// (8-bit files: stored value/255). `linearise` undoes the sRGB curve in the colour channels of
 /// files with 8 or 16 bits that do not call themselves linear; floating-point files are linear
-/// anyway. EXR channels come in the order they were given to write_image(). Throws InputError
-/// naming the file and the reason.
-Image read_image(const std::string& path, bool linearise = false);
+/// anyway. EXR channels come in the order they were given to write_image(). A file that claims more
+/// than `most_pixels` is refused before memory is asked for. Throws InputError naming the file and
+/// the reason.
+Image read_image(const std::string& path, bool linearise = false,
+                 std::size_t most_pixels = std::size_t{1} << 32);
 
 /// Writes by suffix: .exr (float32, ZIP, all channels and metadata), .png (8 bit; data must already
 /// be display-referred in [0,1], clipped otherwise, NaN becomes 0), others as the library can. A

@@ -156,7 +156,8 @@ void linearise_colours(const OIIO::ImageSpec& spec, Image& image) {
       image.data[i] = srgb_to_linear(image.data[i]);
 }
 
-std::string read_file(const std::string& path, bool linearise, Image& image) {
+std::string read_file(const std::string& path, bool linearise, std::size_t most_pixels,
+                      Image& image) {
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // stored values, not multiplied by alpha
   auto file = OIIO::ImageInput::open(path, &config);
@@ -165,6 +166,9 @@ std::string read_file(const std::string& path, bool linearise, Image& image) {
   if (spec.deep) return "deep images are not supported";
   if (spec.width <= 0 || spec.height <= 0 || spec.depth != 1 || spec.nchannels <= 0)
     return "not a flat picture with at least one pixel";
+  if (spec.image_pixels() > most_pixels)
+    return std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+           " pixels are too many; the most is " + std::to_string(most_pixels) + " in all";
 
   image.width = spec.width;
   image.height = spec.height;
@@ -305,8 +309,9 @@ std::string guarded_read_words(const std::string& path, WordImage& words) {
 std::string guarded_write_words(const std::string& path, const WordImage& words) {
   return guarded([&] { return write_word_file(path, words); });
 }
-std::string guarded_read(const std::string& path, bool linearise, Image& image) {
-  return guarded([&] { return read_file(path, linearise, image); });
+std::string guarded_read(const std::string& path, bool linearise, std::size_t most_pixels,
+                         Image& image) {
+  return guarded([&] { return read_file(path, linearise, most_pixels, image); });
 }
 std::string guarded_write(const std::string& path, const Image& image) {
   return guarded([&] { return write_file(path, image); });

@@ -11,7 +11,8 @@ namespace pellucid {
 
 struct ImagePlugin {
   /// Each returns "" or the reason of failure, without the file name.
-  std::string (*read)(const std::string& path, bool linearise, Image& image);
+  std::string (*read)(const std::string& path, bool linearise, std::size_t most_pixels,
+                      Image& image);
   /// `path` exists and may be overwritten; its suffix selects the format.
   std::string (*write)(const std::string& path, const Image& image);
   std::string (*read_words)(const std::string& path, WordImage& words);
@@ -20,8 +21,8 @@ struct ImagePlugin {
 
 /// Layout version of ImagePlugin and Image, part of the symbol's name: a stale library left over
 /// from another build then fails to load instead of crashing.
-#define PELLUCID_IMAGE_PLUGIN pellucid_image_plugin_2
-#define PELLUCID_IMAGE_PLUGIN_NAME "pellucid_image_plugin_2"
+#define PELLUCID_IMAGE_PLUGIN pellucid_image_plugin_3
+#define PELLUCID_IMAGE_PLUGIN_NAME "pellucid_image_plugin_3"
 
 using ImagePluginEntry = const ImagePlugin* (*)();
 

@@ -29,6 +29,11 @@ void add_mesh(const Mesh& mesh, uint shape_index, PackedScene& out) {
     out.normals.resize(base);  // shapes before it that have none
     for (const glm::vec3& n : mesh.normals) out.normals.push_back(F4{n.x, n.y, n.z, 0.0f});
   }
+  if (!mesh.uvs.empty()) {
+    PELLUCID_CHECK(mesh.uvs.size() == mesh.positions.size(), "one uv per position");
+    out.uvs.resize(std::size_t{2} * base);
+    for (const glm::vec2& uv : mesh.uvs) out.uvs.insert(out.uvs.end(), {uv.x, uv.y});
+  }
   for (const glm::uvec3& t : mesh.triangles)
     out.triangles.push_back(Triangle{base + t.x, base + t.y, base + t.z, shape_index});
 }
@@ -50,6 +55,30 @@ void add_mesh(const Mesh& mesh, uint shape_index, PackedScene& out) {
     }
   } else {
     features.set(std::holds_alternative<Sphere>(shape.geometry) ? FEAT_SPHERES : FEAT_DISKS);
+  }
+  const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+  if (textured(scene, shape) && !(mesh && mesh->uvs.empty())) {
+    out.flags |= SHAPE_TEXTURED;
+    features.set(FEAT_TEXTURE);
+  }
+  return out;
+}
+
+::Quadric pack_quadric(const Shape& shape, uint index) {
+  ::Quadric out{};
+  out.shape = index;
+  if (const Sphere* s = std::get_if<Sphere>(&shape.geometry)) {
+    out.kind = QUADRIC_SPHERE;
+    out.center_radius = to_f4(s->center, s->radius);
+    out.normal = to_f4(s->axes[1]);
+    out.tangent = to_f4(s->axes[2], glm::determinant(s->axes) < 0.0 ? -1.0 : 1.0);
+  } else {
+    const Disk& d = std::get<Disk>(shape.geometry);
+    out.kind = QUADRIC_DISK;
+    out.center_radius = to_f4(d.center, d.radius);
+    out.normal = to_f4(d.normal);
+    const double turn = glm::dot(glm::cross(d.normal, d.u_axis), d.v_axis);
+    out.tangent = to_f4(d.u_axis, turn < 0.0 ? -1.0 : 1.0);
   }
   return out;
 }
@@ -191,14 +220,7 @@ void pack_shapes(const Scene& scene, PackedScene& out) {
       add_mesh(*mesh, index, out);
     } else {
       packed.first_prim = first_quadric++;
-      if (const Sphere* s = std::get_if<Sphere>(&shape.geometry)) {
-        out.quadrics.push_back(
-            {to_f4(s->center, s->radius), to_f4({}), QUADRIC_SPHERE, index, 0, 0});
-      } else {
-        const Disk& d = std::get<Disk>(shape.geometry);
-        out.quadrics.push_back(
-            {to_f4(d.center, d.radius), to_f4(d.normal), QUADRIC_DISK, index, 0, 0});
-      }
+      out.quadrics.push_back(pack_quadric(shape, index));
     }
     out.shapes.push_back(packed);
   }

@@ -51,6 +51,7 @@ void pack_phong(const Material& m, ::Material& out, FeatureSet& features) {
   const double diffuse = largest(m.reflectance), specular = largest(m.specular);
   const double prob_diffuse = diffuse + specular > 0.0 ? diffuse / (diffuse + specular) : 1.0;
   out.reflectance = to_f4(m.reflectance, prob_diffuse);
+  out.untextured = float(specular);
   out.eta_specular = to_f4(m.specular, m.exponent);
   out.survive = survive(largest(m.reflectance + m.specular));
 }
@@ -62,6 +63,7 @@ void pack_phong(const Material& m, ::Material& out, FeatureSet& features) {
   out.alpha = float(m.alpha);
   out.ior = float(m.ior);
   out.reflectance = to_f4(m.reflectance);
+  out.texture = m.texture ? uint(*m.texture) : NONE;
   out.survive = survive(largest(m.reflectance));
   switch (m.kind) {
     case MaterialKind::diffuse:

@@ -26,8 +26,11 @@ struct PackedScene {
   std::vector<Quadric> quadrics;
   std::vector<Triangle> triangles;
   std::vector<F4> positions, normals;
+  std::vector<float> uvs;  ///< [vertices][2]
   std::vector<::Shape> shapes;
   std::vector<::Material> materials;
+  std::vector<::Texture> textures;
+  std::vector<uint> texels;  ///< [texels][2]
   std::vector<::Light> lights;
   SceneInfo info{};
   ::Camera camera{};

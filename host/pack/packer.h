@@ -15,6 +15,8 @@ inline F4 to_f4(const glm::dvec3& v, double w = 0.0) {
 /// geometry.cpp: shapes, triangles, quadrics (in scene order: primitive ids do not depend on the
 /// BVH).
 void pack_shapes(const Scene& scene, PackedScene& out);
+/// textures.cpp: images as texels, in half precision.
+void pack_textures(const Scene& scene, PackedScene& out);
 /// geometry.cpp: BVH over them, flattened; bounds.
 void pack_bvh(PackedScene& out);
 

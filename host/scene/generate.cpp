@@ -68,6 +68,16 @@ void add_octahedron_triangles(const OctahedronGrid& grid, std::vector<glm::uvec3
     }
 }
 
+/// Texture coordinates of a direction, as those of an exact sphere: poles on the y axis, the middle
+/// of the picture at +z.
+glm::dvec2 sphere_uv(glm::dvec3 d) {
+  const double across = std::sqrt(d.x * d.x + d.z * d.z);
+  const double v = 0.5 + (d.y < 0.0 ? -1.0 : 1.0) * 2.0 * angle_turns(std::abs(d.y), across);
+  if (across == 0.0) return {std::nan(""), v};
+  const double u = 0.5 + angle_turns(d.x, d.z);
+  return {u < 1.0 ? u : u - 1.0, v};
+}
+
 /// An nx by nz grid of cells over the xz plane, front side up; height(x, z) gives y.
 template <class Height>
 RawMesh make_sheet(int triangles, glm::dvec2 size, Height height) {
@@ -82,6 +92,7 @@ RawMesh make_sheet(int triangles, glm::dvec2 size, Height height) {
       const double x = (static_cast<double>(i) / nx - 0.5) * size.x;
       const double z = (static_cast<double>(k) / nz - 0.5) * size.y;
       mesh.positions.emplace_back(x, height(x, z), z);
+      mesh.uvs.emplace_back(static_cast<double>(i) / nx, 1.0 - static_cast<double>(k) / nz);
     }
   mesh.triangles.reserve(std::size_t{2} * nx * nz);
   for (std::uint32_t k = 0; k < nz; ++k)
@@ -128,6 +139,7 @@ RawMesh generate(const DisplacedSphere& shape) {
   const OctahedronGrid grid(n);
   RawMesh mesh;
   mesh.positions.resize(std::size_t{4} * n * n + 2);
+  mesh.uvs.resize(mesh.positions.size());
   for (std::uint32_t ring = 0; ring <= grid.rings(); ++ring)
     for (std::uint32_t q = 0; q < 4; ++q)
       for (std::uint32_t j = 0; j < std::max(grid.quarter(ring), 1u); ++j) {
@@ -135,6 +147,7 @@ RawMesh generate(const DisplacedSphere& shape) {
         const double bump = fractal_noise(shape.frequency * d, shape.octaves, shape.seed);
         mesh.positions[grid.index(ring, q, j)] =
             d * (shape.radius * (1.0 + shape.amplitude * bump));
+        mesh.uvs[grid.index(ring, q, j)] = sphere_uv(d);
       }
   mesh.triangles.reserve(std::size_t{8} * n * n);
   add_octahedron_triangles(grid, mesh.triangles);
@@ -156,6 +169,7 @@ RawMesh generate(const TorusKnot& shape) {
       const SineCosine angle = sin_cos_turns(static_cast<double>(k) / across);
       mesh.positions.push_back(frame.point +
                                tube * (angle.cos * frame.normal + angle.sin * frame.binormal));
+      mesh.uvs.emplace_back(static_cast<double>(i) / along, static_cast<double>(k) / across);
     }
   }
   mesh.triangles.reserve(std::size_t{2} * along * across);

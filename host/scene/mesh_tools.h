@@ -10,15 +10,21 @@
 
 namespace pellucid {
 
-/// Triangles in object space; `normals` is empty or has one unit vector per position.
+/// Triangles in object space; `normals` is empty or has one unit vector per position, `uvs` is
+/// empty or has one pair.
 struct RawMesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::dvec3> normals;
+  std::vector<glm::dvec2> uvs;  ///< u NaN: undefined, as at the pole of a sphere
   std::vector<glm::uvec3> triangles;
 };
 
 /// Gives every vertex the mean of its triangles' normals, weighted by area.
 void add_smooth_normals(RawMesh& mesh);
+
+/// Where texture coordinates jump from 1 to 0 inside a triangle, it gets vertices of its own that
+/// go on beyond 1; at a pole each triangle gets the mean longitude of its other corners.
+void cut_seams(RawMesh& mesh);
 
 struct BakedMesh {
   Mesh mesh;
@@ -30,9 +36,10 @@ struct BakedMesh {
 /// and drops triangles without area. Consumes the raw mesh to save memory.
 BakedMesh bake_mesh(RawMesh raw, const Affine& transform, bool flip);
 
-/// Two triangles; front side = edge0 x edge1.
+/// Two triangles; front side = edge0 x edge1; u grows along edge0, v along edge1.
 RawMesh make_rectangle(glm::dvec3 corner, glm::dvec3 edge0, glm::dvec3 edge1);
-/// Twelve triangles over eight shared vertices, front side outwards.
+/// Twelve triangles, front side outwards. Every face shows the whole texture: upright at the sides,
+/// u along x at top and bottom.
 RawMesh make_cube(glm::dvec3 center, glm::dvec3 size);
 
 }  // namespace pellucid

@@ -6,6 +6,8 @@
 namespace pellucid {
 namespace {
 
+constexpr double two_pi = 6.283185307179586476925;
+
 /// Dot product with one of 12 edge directions of a cube, chosen by hash [Perlin02].
 double gradient_dot(std::uint32_t hash, double x, double y, double z) {
   const std::uint32_t h = hash % 12u;
@@ -68,7 +70,7 @@ double fractal_noise(glm::dvec3 p, int octaves, std::uint32_t seed) {
 SineCosine sin_cos_turns(double turns) {
   turns -= std::floor(turns);
   const int quarter = static_cast<int>(std::floor(turns * 4.0 + 0.5));
-  const double x = (turns - quarter * 0.25) * 6.283185307179586476925;  // in [-pi/4, pi/4]
+  const double x = (turns - quarter * 0.25) * two_pi;  // in [-pi/4, pi/4]
   const double x2 = x * x;
   // Taylor series; the terms left out are below 1e-19.
   double s = 0.0, c = 0.0;
@@ -88,6 +90,18 @@ SineCosine sin_cos_turns(double turns) {
     default:
       return {-c, s};
   }
+}
+
+double angle_turns(double y, double x) {
+  const double ax = std::abs(x), ay = std::abs(y);
+  double turns = 0.25 * ay / (ax + ay);  // off by at most 0.07 radians, which Newton cubes
+  for (int step = 0; step < 3; ++step) {
+    const SineCosine at = sin_cos_turns(turns);
+    turns += (ay * at.cos - ax * at.sin) / (ax * at.cos + ay * at.sin) / two_pi;
+  }
+  if (x < 0.0) turns = 0.5 - turns;
+  if (y < 0.0) turns = 1.0 - turns;
+  return turns < 1.0 ? turns : 0.0;
 }
 
 }  // namespace pellucid

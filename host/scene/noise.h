@@ -20,5 +20,7 @@ struct SineCosine {
 /// Sine and cosine of a whole-turn angle (1 = 360 degrees), exact at quarters. The C library's
 /// differ in the last bit between machines, so scenes do not use them.
 SineCosine sin_cos_turns(double turns);
+/// Angle of the point (x, y) in turns, in [0, 1), exact at quarters; the point is not the origin.
+double angle_turns(double y, double x);
 
 }  // namespace pellucid

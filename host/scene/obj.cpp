@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <sstream>
 #include <unordered_map>
@@ -27,6 +28,9 @@ class LibraryReader : public tinyobj::MaterialReader {
   LibraryReader(std::string obj_path, ObjModel& model)
       : obj_path_(std::move(obj_path)), model_(model) {}
 
+  /// What the files say beyond tinyobjloader.
+  const MtlScan& scan() const { return scan_; }
+
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* index, std::string* warn, std::string* err) override {
     const auto path = (std::filesystem::path(obj_path_).parent_path() / name).string();
@@ -36,7 +40,7 @@ class LibraryReader : public tinyobj::MaterialReader {
     } catch (const InputError& error) {
       throw InputError(fmt::format("{} (named by '{}'){}", error.what(), obj_path_, remedy));
     }
-    scan_mtl(path, text, model_.not_supported);
+    scan_.merge(scan_mtl(path, text));
     model_.files.push_back(path);
     std::istringstream in(text);
     tinyobj::LoadMtl(index, materials, &in, warn, err);
@@ -46,6 +50,7 @@ class LibraryReader : public tinyobj::MaterialReader {
  private:
   std::string obj_path_;
   ObjModel& model_;
+  MtlScan scan_;
 };
 
 void check_materials(const std::string& path, const ObjScan& scan,
@@ -66,10 +71,12 @@ void check_materials(const std::string& path, const ObjScan& scan,
                                    names.empty() ? "none" : list_choices(names)));
 }
 
-/// Collects the triangles of one part, sharing vertices that agree in position and normal.
+/// Collects the triangles of one part, sharing vertices that agree in position, normal and, where
+/// they matter, texture coordinates.
 class PartBuilder {
  public:
-  PartBuilder(const tinyobj::attrib_t& attrib, bool smooth) : attrib_(attrib), smooth_(smooth) {}
+  PartBuilder(const tinyobj::attrib_t& attrib, bool smooth, bool textured)
+      : attrib_(attrib), smooth_(smooth), textured_(textured) {}
 
   void add(const tinyobj::index_t* corners) {
     glm::dvec3 p[3];
@@ -82,9 +89,24 @@ class PartBuilder {
     mesh_.triangles.push_back(triangle);
   }
 
-  RawMesh take() { return std::move(mesh_); }
+  /// Texture coordinates are all there or empty.
+  RawMesh take() {
+    if (corner_without_uv_) mesh_.uvs = {};
+    return std::move(mesh_);
+  }
 
  private:
+  /// Indices of position, normal and texture coordinates.
+  using Key = std::array<int, 3>;
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const {
+      std::uint64_t hash = 0;
+      for (const int index : key)  // multiplicative hashing by 2^64 over the golden ratio
+        hash = (hash ^ static_cast<std::uint32_t>(index)) * 0x9e3779b97f4a7c15u;
+      return hash ^ (hash >> 32);
+    }
+  };
+
   static glm::dvec3 read(const std::vector<tinyobj::real_t>& values, int index) {
     const auto at = static_cast<std::size_t>(index) * 3;
     PELLUCID_CHECK(index >= 0 && at + 2 < values.size(), "an OBJ index slipped through the scan");
@@ -95,8 +117,8 @@ class PartBuilder {
     const int normal = smooth_ ? corner.normal_index : -1;
     // A corner without a normal in a smooth part takes its face's, so it cannot be shared.
     const bool shared = !smooth_ || normal >= 0;
-    const std::uint64_t key = (static_cast<std::uint64_t>(corner.vertex_index) << 32) |
-                              static_cast<std::uint32_t>(normal + 1);
+    const int uv = textured_ ? corner.texcoord_index : -1;
+    const Key key = {corner.vertex_index, normal, uv};
     if (shared) {
       const auto found = known_.find(key);
       if (found != known_.end()) return found->second;
@@ -108,14 +130,25 @@ class PartBuilder {
       const double length = glm::length(given);
       mesh_.normals.push_back(length > 0.0 ? given / length : flat);
     }
+    if (textured_) mesh_.uvs.push_back(read_uv(uv));
     if (shared) known_.emplace(key, index);
     return index;
   }
 
+  glm::dvec2 read_uv(int index) {
+    if (index < 0) {
+      corner_without_uv_ = true;
+      return glm::dvec2(0.0);
+    }
+    const auto at = static_cast<std::size_t>(index) * 2;
+    PELLUCID_CHECK(at + 1 < attrib_.texcoords.size(), "an OBJ index slipped through the scan");
+    return {attrib_.texcoords[at], attrib_.texcoords[at + 1]};
+  }
+
   const tinyobj::attrib_t& attrib_;
-  bool smooth_;
+  bool smooth_, textured_, corner_without_uv_ = false;
   RawMesh mesh_;
-  std::unordered_map<std::uint64_t, std::uint32_t> known_;
+  std::unordered_map<Key, std::uint32_t, KeyHash> known_;
 };
 
 bool has_normals(const tinyobj::mesh_t& mesh) {
@@ -125,20 +158,42 @@ bool has_normals(const tinyobj::mesh_t& mesh) {
 
 /// One part per material of one tinyobjloader shape, which is an object or a group.
 void add_parts(const tinyobj::shape_t& shape, const tinyobj::attrib_t& attrib,
-               const ObjOptions& options, ObjModel& model) {
+               const ObjOptions& options, const std::vector<bool>& textured, ObjModel& model) {
   const bool smooth = options.use_normals && has_normals(shape.mesh);
   std::map<int, PartBuilder> builders;  // by material, in the order of the material file
   for (std::size_t t = 0; t < shape.mesh.num_face_vertices.size(); ++t) {
     const int material = options.ignore_materials ? 0 : shape.mesh.material_ids[t];
-    const auto part = builders.try_emplace(material, attrib, smooth).first;
+    const bool with_uvs =
+        options.textured || (!textured.empty() && textured[static_cast<std::size_t>(material)]);
+    const auto part = builders.try_emplace(material, attrib, smooth, with_uvs).first;
     part->second.add(&shape.mesh.indices[3 * t]);
   }
   for (auto& [material, builder] : builders)
     model.parts.push_back({shape.name, material, std::nullopt, builder.take()});
 }
 
+/// Converts one material; its map_Kd goes with it where the result has a base colour.
+void convert_material(const tinyobj::material_t& mtl, const MtlScan& scan, ObjModel& model,
+                      std::vector<std::optional<Emission>>& emissions) {
+  MtlSurface surface = convert_mtl(mtl, model.warnings);
+  std::optional<MtlTexture> texture;
+  const auto found = scan.textures.find(mtl.name);
+  const MaterialKind kind = surface.material.kind;
+  if (found != scan.textures.end()) {
+    if (kind == MaterialKind::diffuse || kind == MaterialKind::phong) {
+      texture = found->second;
+    } else {
+      model.not_supported.emplace("MTL \"map_Kd\" of glass and mirrors", found->second.place);
+    }
+  }
+  model.materials.push_back(std::move(surface.material));
+  model.textures.push_back(std::move(texture));
+  emissions.push_back(surface.emission);
+}
+
 /// Converts the materials in use and renumbers the parts accordingly.
-void convert_materials(const std::vector<tinyobj::material_t>& materials, ObjModel& model) {
+void convert_materials(const std::vector<tinyobj::material_t>& materials, const MtlScan& scan,
+                       ObjModel& model) {
   std::map<int, int> renumbered;
   std::vector<std::optional<Emission>> emissions;
   for (ObjPart& part : model.parts) {
@@ -146,14 +201,29 @@ void convert_materials(const std::vector<tinyobj::material_t>& materials, ObjMod
         renumbered.emplace(part.material, static_cast<int>(model.materials.size()));
     if (added) {
       PELLUCID_CHECK(part.material >= 0, "a face without material slipped through the scan");
-      const auto id = static_cast<std::size_t>(part.material);
-      MtlSurface surface = convert_mtl(materials[id], model.warnings);
-      model.materials.push_back(std::move(surface.material));
-      emissions.push_back(surface.emission);
+      convert_material(materials[static_cast<std::size_t>(part.material)], scan, model, emissions);
     }
     part.material = entry->second;
-    part.emission = emissions[static_cast<std::size_t>(part.material)];
+    const auto id = static_cast<std::size_t>(part.material);
+    part.emission = emissions[id];
+    if (model.textures[id] && part.mesh.uvs.empty())
+      model.warnings.push_back(
+          fmt::format("{}: map_Kd of \"{}\" is left out on {}, where faces have no texture "
+                      "coordinates (vt)",
+                      model.files.front(), printable(model.materials[id].name),
+                      part.name.empty() ? "a part" : '"' + printable(part.name) + '"'));
   }
+}
+
+/// Which materials have a texture. One without Kd is white under it, where tinyobjloader says 0.6.
+std::vector<bool> find_textured(const MtlScan& scan, std::vector<tinyobj::material_t>& materials) {
+  std::vector<bool> textured;
+  for (tinyobj::material_t& material : materials) {
+    textured.push_back(scan.textures.count(material.name) > 0);
+    if (textured.back() && scan.coloured.count(material.name) == 0)
+      for (tinyobj::real_t& value : material.diffuse) value = 1;
+  }
+  return textured;
 }
 
 }  // namespace
@@ -177,9 +247,13 @@ ObjModel load_obj(const std::string& path, const ObjOptions& options) {
                        options.ignore_materials ? nullptr : &reader, triangulate, vertex_colors);
   if (!loaded) throw InputError(fmt::format("{}: {}", path, printable(error, 200)));
   if (!options.ignore_materials && !shapes.empty()) check_materials(path, scan, materials);
-  for (const tinyobj::shape_t& shape : shapes) add_parts(shape, attrib, options, model);
+  const std::vector<bool> with_texture = find_textured(reader.scan(), materials);
+  model.not_supported.insert(reader.scan().not_supported.begin(),
+                             reader.scan().not_supported.end());
+  for (const tinyobj::shape_t& shape : shapes)
+    add_parts(shape, attrib, options, with_texture, model);
   if (model.parts.empty()) throw InputError(fmt::format("{}: the file has no faces", path));
-  if (!options.ignore_materials) convert_materials(materials, model);
+  if (!options.ignore_materials) convert_materials(materials, reader.scan(), model);
   return model;
 }
 

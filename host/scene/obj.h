@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/mesh_tools.h"
+#include "scene/obj_scan.h"
 #include "scene/scene.h"
 
 namespace pellucid {
@@ -14,6 +15,7 @@ namespace pellucid {
 struct ObjOptions {
   bool ignore_materials = false;  ///< the scene gives the material: no MTL file is read
   bool use_normals = true;        ///< smooth shading where the file has normals
+  bool textured = false;          ///< the scene's material has a texture
 };
 
 /// The triangles of one object with one material.
@@ -25,7 +27,8 @@ struct ObjPart {
 };
 
 struct ObjModel {
-  std::vector<Material> materials;  ///< those in use
+  std::vector<Material> materials;                  ///< those in use
+  std::vector<std::optional<MtlTexture>> textures;  ///< of each material
   std::vector<ObjPart> parts;
   std::vector<std::string> files;                    ///< every file read
   std::vector<std::string> warnings;                 ///< oddities of this model

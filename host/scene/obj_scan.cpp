@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
+#include <filesystem>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -37,13 +38,23 @@ class LineReader {
 
   const std::vector<std::string_view>& words() const { return words_; }
   int number() const { return number_; }
-  std::string rest() const {  ///< the line after its first word, without blanks around it
-    const char* begin = words_[1].data();
+  /// The line from word i on, without blanks around it.
+  std::string rest(std::size_t i = 1) const {
+    const char* begin = words_[i].data();
     return {begin, words_.back().data() + words_.back().size()};
   }
 
   [[noreturn]] void fail(const std::string& why) const {
-    throw InputError(fmt::format("{}:{}: {}", path_, number_, why));
+    throw InputError(fmt::format("{}: {}", place(), why));
+  }
+
+  std::string place() const { return fmt::format("{}:{}", path_, number_); }
+
+  /// Whether word i is there and begins like a number.
+  bool has_number(std::size_t i) const {
+    return i < words_.size() &&
+           std::string_view("+-.0123456789").find(words_[i][0]) != std::string_view::npos &&
+           words_[i].find_first_not_of("+-.0123456789eE") == std::string_view::npos;
   }
 
   /// Word i as a finite number of a size that makes sense.
@@ -115,10 +126,52 @@ void check_face(const LineReader& line, const Counts& counts) {
   for (std::size_t i = 1; i < line.words().size(); ++i) check_corner(line, line.words()[i], counts);
 }
 
+/// Up to three numbers after the option at word i, as -s and -o have them; returns the next word.
+std::size_t read_pair(const LineReader& line, std::size_t i, glm::dvec2& pair) {
+  const std::size_t first = i + 1;
+  for (i = first; i < first + 3 && (i == first || line.has_number(i)); ++i)
+    if (const double value = line.real(i); i < first + 2) pair[int(i - first)] = value;
+  return i;
+}
+
+/// map_Kd [options] file. Options that change the picture in ways we do not have are reported.
+MtlTexture read_map(const LineReader& line, const std::string& path,
+                    std::map<std::string, std::string>& not_supported) {
+  // Option -> how many words follow it.
+  static const std::map<std::string_view, std::size_t> ignored = {
+      {"-blendu", 1}, {"-blendv", 1}, {"-boost", 1},   {"-cc", 1},   {"-mm", 2},
+      {"-texres", 1}, {"-bm", 1},     {"-imfchan", 1}, {"-type", 1}, {"-t", 3}};
+  MtlTexture map;
+  map.place = line.place();
+  std::size_t i = 1;
+  while (i < line.words().size() && line.words()[i][0] == '-') {
+    const std::string_view option = line.words()[i];
+    const auto found = ignored.find(option);
+    if (option == "-s" || option == "-o") {
+      i = read_pair(line, i, option == "-s" ? map.scale : map.offset);
+    } else if (option == "-clamp") {
+      const std::string_view value = i + 1 < line.words().size() ? line.words()[i + 1] : "";
+      if (value != "on" && value != "off") line.fail("-clamp takes \"on\" or \"off\"");
+      map.clamp = value == "on";
+      i += 2;
+    } else if (found != ignored.end()) {
+      not_supported.emplace(fmt::format("MTL \"map_Kd {}\"", option), path);
+      i += 1 + found->second;
+    } else {
+      line.fail(fmt::format("map_Kd has no option \"{}\"", printable(std::string(option), 20)));
+    }
+  }
+  if (i >= line.words().size()) line.fail("map_Kd needs the name of a file");
+  std::string name = line.rest(i);
+  std::replace(name.begin(), name.end(), '\\', '/');
+  map.file = (std::filesystem::path(path).parent_path() / name).string();
+  return map;
+}
+
 }  // namespace
 
 ObjScan scan_obj(const std::string& path, const std::string& text) {
-  static const std::set<std::string_view> harmless = {"o", "g", "s", "vt"};
+  static const std::set<std::string_view> harmless = {"o", "g", "s"};
   ObjScan scan;
   Counts counts;
   bool has_material = false;
@@ -129,6 +182,9 @@ ObjScan scan_obj(const std::string& path, const std::string& text) {
     if (key == "v" || key == "vn") {
       for (std::size_t i = 1; i <= 3; ++i) line.real(i);
       ++(key == "v" ? counts.positions : counts.normals);
+    } else if (key == "vt") {
+      for (std::size_t i = 1; i < std::max<std::size_t>(line.words().size(), 2); ++i) line.real(i);
+      ++counts.texcoords;
     } else if (key == "f") {
       check_face(line, counts);
       if (!has_material && scan.first_face_without_material == 0)
@@ -143,27 +199,34 @@ ObjScan scan_obj(const std::string& path, const std::string& text) {
     } else if (harmless.count(key) == 0) {
       scan.not_supported.emplace("OBJ \"" + printable(std::string(key), 20) + "\"", path);
     }
-    if (key == "vt") ++counts.texcoords;
   }
   return scan;
 }
 
-void scan_mtl(const std::string& path, const std::string& text,
-              std::map<std::string, std::string>& not_supported) {
+MtlScan scan_mtl(const std::string& path, const std::string& text) {
   // Keyword -> how many numbers follow. Ka is read past: ambient light has no place in transport.
   static const std::map<std::string_view, std::size_t> known = {
       {"newmtl", 0}, {"Ka", 3}, {"Kd", 3}, {"Ks", 3}, {"Ke", 3}, {"Tf", 3},
       {"Kt", 3},     {"Ns", 1}, {"Ni", 1}, {"d", 1},  {"Tr", 1}, {"illum", 1}};
+  MtlScan scan;
+  std::string material;
   for (LineReader line(path, text); line.next();) {
     const std::string_view key = line.words()[0];
     const auto found = known.find(key);
+    if (key == "map_Kd") {
+      scan.textures[material] = read_map(line, path, scan.not_supported);
+      continue;
+    }
     if (found == known.end()) {
-      not_supported.emplace("MTL \"" + printable(std::string(key), 20) + "\"", path);
+      scan.not_supported.emplace("MTL \"" + printable(std::string(key), 20) + "\"", path);
       continue;
     }
     for (std::size_t i = 1; i <= found->second; ++i)
       if (line.real(i) < 0.0) line.fail(fmt::format("{} must not be negative", key));
+    if (key == "newmtl") material = line.words().size() > 1 ? line.rest() : "";
+    if (key == "Kd") scan.coloured.insert(material);
   }
+  return scan;
 }
 
 }  // namespace pellucid

@@ -2,7 +2,9 @@
 // zero and skips what it does not know, without a word.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <map>
+#include <set>
 #include <string>
 
 namespace pellucid {
@@ -17,8 +19,29 @@ struct ObjScan {
 /// Checks every number, index and keyword of an OBJ text. Throws InputError with file:line.
 ObjScan scan_obj(const std::string& path, const std::string& text);
 
-/// Checks the numbers of an MTL text and collects the keywords that pellucid has no use for.
-void scan_mtl(const std::string& path, const std::string& text,
-              std::map<std::string, std::string>& not_supported);
+/// A map_Kd line.
+struct MtlTexture {
+  std::string place;  ///< of the line, for messages
+  std::string file;   ///< relative to where the MTL file is
+  glm::dvec2 scale{1.0}, offset{0.0};
+  bool clamp = false;  ///< else the picture repeats
+};
+
+struct MtlScan {
+  std::map<std::string, MtlTexture> textures;        ///< by material
+  std::set<std::string> coloured;                    ///< materials that have Kd
+  std::map<std::string, std::string> not_supported;  ///< kind -> file
+
+  /// Adds what another file says; what is there already stays.
+  void merge(MtlScan other) {
+    textures.merge(other.textures);
+    coloured.merge(other.coloured);
+    not_supported.merge(other.not_supported);
+  }
+};
+
+/// Checks the numbers of an MTL text and collects its textures and the keywords that pellucid has
+/// no use for.
+MtlScan scan_mtl(const std::string& path, const std::string& text);
 
 }  // namespace pellucid

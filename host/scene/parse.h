@@ -6,6 +6,7 @@
 #include <string>
 
 #include "scene/json_tree.h"
+#include "scene/obj_scan.h"
 #include "scene/reader.h"
 #include "scene/scene.h"
 
@@ -16,6 +17,7 @@ struct SceneBuilder {
   Scene scene;
   std::string folder;                         ///< of the scene file; assets are relative to it
   std::map<std::string, int> material_index;  ///< of "materials", by name
+  std::map<std::string, int> image_index;     ///< of Scene::images, by file and colour space
   std::map<std::string, std::set<std::string>> not_supported;  ///< kind -> files that ask for it
 };
 
@@ -26,6 +28,11 @@ Emission parse_emission(const JsonNode& node);
 /// A material without its name.
 Material parse_material(const JsonNode& node);
 void parse_materials(const JsonNode& node, SceneBuilder& builder);
+
+/// A "texture" of a material: reads its image unless another one did; index into Scene::textures.
+int parse_texture(const JsonNode& node, SceneBuilder& builder);
+/// The same for a texture of an MTL file.
+int add_texture(const MtlTexture& mtl, SceneBuilder& builder);
 
 /// One entry of "shapes"; a mesh may become several shapes.
 void parse_shape(const JsonNode& node, SceneBuilder& builder);

@@ -81,6 +81,8 @@ void parse_materials(const JsonNode& node, SceneBuilder& builder) {
       fail_at(*node.source, member.key_offset, node.path, "a material's name must not be empty");
     Material material = parse_material(member.value);
     material.name = member.key;
+    if (const JsonNode* texture = member.value.find("texture"))
+      material.texture = parse_texture(*texture, builder);
     builder.material_index[member.key] = static_cast<int>(builder.scene.materials.size());
     builder.scene.materials.push_back(std::move(material));
   }

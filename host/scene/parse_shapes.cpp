@@ -43,6 +43,7 @@ ShapeParts parse_common(const ObjectReader& reader, const SceneBuilder& builder,
 
 /// Adds the shape after the checks that every mesh has to pass.
 void add_mesh(const ObjectReader& reader, ShapeParts parts, RawMesh raw, SceneBuilder& builder) {
+  if (!textured(builder.scene, parts.shape)) raw.uvs = {};
   BakedMesh baked = bake_mesh(std::move(raw), parts.transform, parts.flip);
   if (!baked.finite)
     fail(reader.node(), fmt::format("{} reaches beyond coordinates of {:g}; scale it down",
@@ -69,7 +70,15 @@ double similarity_scale(const ObjectReader& reader, const Affine& transform, con
 Sphere parse_sphere(const ObjectReader& reader, const Affine& transform) {
   const double scale = similarity_scale(
       reader, transform, "a \"displaced-sphere\" with amplitude 0, which is made of triangles");
-  return {transform.point(reader.vector("center")), scale * reader.number("radius")};
+  const glm::dmat3 axes = transform.linear / scale;
+  return {transform.point(reader.vector("center")), scale * reader.number("radius"),
+          glm::dmat3(glm::normalize(axes[0]), glm::normalize(axes[1]), glm::normalize(axes[2]))};
+}
+
+/// A direction across `normal` to which u grows, so that v grows upwards (+y) as far as it can.
+glm::dvec3 upright_u_axis(glm::dvec3 normal) {
+  const glm::dvec3 u = glm::cross(glm::dvec3(0.0, 1.0, 0.0), normal);
+  return u == glm::dvec3(0.0) ? glm::dvec3(1.0, 0.0, 0.0) : glm::normalize(u);
 }
 
 Disk parse_disk(const ObjectReader& reader, const ShapeParts& parts) {
@@ -77,9 +86,11 @@ Disk parse_disk(const ObjectReader& reader, const ShapeParts& parts) {
       similarity_scale(reader, parts.transform, "a \"mesh\" or a \"rectangle\", made of triangles");
   const glm::dvec3 normal = reader.vector("normal");
   if (normal == glm::dvec3(0.0)) fail(reader.place("normal"), "a normal must not be zero");
-  const glm::dvec3 world = parts.transform.normal(normal);
+  const glm::dvec3 world = parts.transform.normal(normal), u_axis = upright_u_axis(normal);
+  const glm::dvec3 v_axis = glm::cross(glm::normalize(normal), u_axis);
   return {parts.transform.point(reader.vector("center")), parts.flip ? -world : world,
-          scale * reader.number("radius")};
+          scale * reader.number("radius"), glm::normalize(parts.transform.linear * u_axis),
+          glm::normalize(parts.transform.linear * v_axis)};
 }
 
 RawMesh parse_rectangle(const ObjectReader& reader) {
@@ -114,7 +125,7 @@ RawMesh parse_torus_knot(const ObjectReader& reader) {
   return generate(knot);
 }
 
-RawMesh parse_generated(const ObjectReader& reader, const std::string& kind) {
+RawMesh parse_generated(const ObjectReader& reader, const std::string& kind, bool textured) {
   const int triangles = reader.integer("triangles");
   RawMesh mesh;
   if (kind == "shape/displaced-sphere") {
@@ -134,21 +145,34 @@ RawMesh parse_generated(const ObjectReader& reader, const std::string& kind) {
                                 seed_of(reader)});
   }
   if (reader.boolean("smooth")) add_smooth_normals(mesh);
+  const bool closed = kind == "shape/displaced-sphere" || kind == "shape/torus-knot";
+  if (textured && closed) cut_seams(mesh);
   return mesh;
+}
+
+/// Appends the model's materials with their textures; returns the index of the first.
+int add_materials(ObjModel& model, SceneBuilder& builder) {
+  const int first = static_cast<int>(builder.scene.materials.size());
+  for (std::size_t i = 0; i < model.materials.size(); ++i) {
+    if (model.textures[i]) model.materials[i].texture = add_texture(*model.textures[i], builder);
+    builder.scene.materials.push_back(std::move(model.materials[i]));
+  }
+  return first;
 }
 
 void parse_mesh_file(const ObjectReader& reader, const ShapeParts& parts, SceneBuilder& builder) {
   const std::filesystem::path file = std::filesystem::path(builder.folder) / reader.text("file");
   const bool own_material = reader.has("material");
-  ObjOptions options{own_material, reader.boolean("smooth")};
+  ObjOptions options{own_material, reader.boolean("smooth"),
+                     own_material && textured(builder.scene, parts.shape)};
   ObjModel model;
+  int first_material = 0;
   try {
     model = load_obj(file.string(), options);
+    first_material = add_materials(model, builder);
   } catch (const InputError& error) {
     fail(reader.place("file"), error.what());
   }
-  const int first_material = static_cast<int>(builder.scene.materials.size());
-  for (Material& material : model.materials) builder.scene.materials.push_back(std::move(material));
   for (const std::string& read : model.files) builder.scene.files.push_back(read);
   for (const std::string& warning : model.warnings) builder.scene.warnings.push_back(warning);
   for (const auto& [kind, where] : model.not_supported) builder.not_supported[kind].insert(where);
@@ -156,6 +180,11 @@ void parse_mesh_file(const ObjectReader& reader, const ShapeParts& parts, SceneB
     ShapeParts piece = parts;
     if (!part.name.empty()) piece.shape.name += "/" + part.name;
     if (!own_material) piece.shape.material = first_material + part.material;
+    if (options.textured && part.mesh.uvs.empty())
+      fail(reader.place("material"),
+           fmt::format("the material has a texture, but {} of '{}' has faces without texture "
+                       "coordinates (vt)",
+                       piece.shape.name, file.string()));
     if (!reader.has("emission") && part.emission) piece.shape.emission = useful(*part.emission);
     add_mesh(reader, std::move(piece), std::move(part.mesh), builder);
   }
@@ -184,7 +213,8 @@ void parse_shape(const JsonNode& node, SceneBuilder& builder) {
     const glm::dvec3 size = reader.vector("size");
     add_mesh(reader, std::move(parts), make_cube(reader.vector("center"), size), builder);
   } else {
-    add_mesh(reader, std::move(parts), parse_generated(reader, kind), builder);
+    RawMesh mesh = parse_generated(reader, kind, textured(builder.scene, parts.shape));
+    add_mesh(reader, std::move(parts), std::move(mesh), builder);
   }
 }
 

@@ -28,10 +28,27 @@ enum class MaterialKind {
   phong,       ///< modified Phong: reflectance (diffuse) + specular * (n+2)/(2 pi) cos^n
 };
 
+/// A picture in linear Rec.709 from 0 to 1, bottom row first.
+struct TextureImage {
+  int width = 0, height = 0;
+  std::vector<glm::vec3> texels;  ///< [height][width]
+};
+
+enum class TextureWrap { repeat, clamp, mirror };
+
+/// A picture on a surface: looked up at scale * (u, v) + offset.
+struct Texture {
+  int image = 0;  ///< index into Scene::images
+  TextureWrap wrap = TextureWrap::repeat;
+  bool nearest = false;  ///< no bilinear filter
+  glm::dvec2 scale{1.0}, offset{0.0};
+};
+
 struct Material {
   std::string name;
   MaterialKind kind = MaterialKind::diffuse;
   Rgb reflectance{0.5};
+  std::optional<int> texture;  ///< index into Scene::textures; multiplies reflectance
   Rgb specular{0.0};      ///< Phong: hemispherical strength of the glossy lobe at normal incidence
   double exponent = 1.0;  ///< Phong exponent n >= 0
   double ior = 1.5;       ///< dielectric, index of the inside over the outside, > 0
@@ -45,21 +62,27 @@ struct Emission {
   int sides = 1;      ///< 1: the side the geometric normal points to; 2: both
 };
 
-/// Triangles in world space. `normals` is empty (flat) or has one unit vector per position.
-/// Front side: vertices counter-clockwise, so Ng = normalize((p1-p0) x (p2-p0)).
+/// Triangles in world space. `normals` is empty (flat) or has one unit vector per position; `uvs`
+/// is empty unless the material has a texture. Front side: vertices counter-clockwise, so Ng =
+/// normalize((p1-p0) x (p2-p0)).
 struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
+  std::vector<glm::vec2> uvs;
   std::vector<glm::uvec3> triangles;
 };
 struct Sphere {  ///< normal points outwards
   glm::dvec3 center{0.0};
   double radius = 1.0;
+  /// Where texture coordinates lie, orthonormal: east (u = 3/4), north pole (v = 1), and the middle
+  /// of the picture (u = v = 1/2).
+  glm::dmat3 axes{1.0};
 };
 struct Disk {
   glm::dvec3 center{0.0};
   glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit; the front side
   double radius = 1.0;
+  glm::dvec3 u_axis{1.0, 0.0, 0.0}, v_axis{0.0, 1.0, 0.0};  ///< unit; texture coordinates grow so
 };
 
 /// One surface with one material. Rectangles, cubes and generated shapes arrive here as meshes.
@@ -110,10 +133,17 @@ struct Scene {
   Camera camera;
   RenderSettings settings;
   std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<TextureImage> images;
   std::vector<Shape> shapes;
   std::vector<Light> lights;
   std::vector<std::string> warnings;  ///< what was asked for and is not there yet, once per kind
   std::vector<std::string> files;     ///< every file read, for the identity hash
 };
+
+/// Whether the shape's material looks at texture coordinates.
+inline bool textured(const Scene& scene, const Shape& shape) {
+  return scene.materials[static_cast<std::size_t>(shape.material)].texture.has_value();
+}
 
 }  // namespace pellucid

@@ -114,6 +114,26 @@ std::vector<ObjectSpec> part_specs() {
            {"scale", T::scale, optional, coordinate, "scales, per axis or alike; negative mirrors"},
            {"matrix", T::matrix, optional, coordinate, "4x4, row by row; last row 0 0 0 1"},
        }},
+      {"texture",
+       "an image that multiplies a material's reflectance",
+       {
+           {"file", T::text, required, any, "image, relative to the scene file"},
+           {"wrap",
+            T::choice,
+            "\"repeat\"",
+            any,
+            "how it goes on outside 0 to 1",
+            {"repeat", "clamp", "mirror"}},
+           {"filter", T::choice, "\"bilinear\"", any, "between texels", {"bilinear", "nearest"}},
+           {"colorSpace",
+            T::choice,
+            "\"auto\"",
+            any,
+            "auto: sRGB for 8 and 16 bits, linear for floating point",
+            {"auto", "srgb", "linear"}},
+           {"scale", T::pair, "[1, 1]", {-1e6, 1e6}, "factors of u and v"},
+           {"offset", T::pair, "[0, 0]", {-1e6, 1e6}, "added to u and v after that"},
+       }},
       {"rotate",
        "a rotation, counter-clockwise when the axis points at you",
        {
@@ -125,15 +145,16 @@ std::vector<ObjectSpec> part_specs() {
 
 std::vector<ObjectSpec> material_specs() {
   const Field reflectance{"reflectance", T::color, "0.5", unit, "share of light sent back"};
+  const Field texture{"texture", T::object, optional, any, "image that multiplies it"};
   const Fields width = {
       {"roughness", T::number, optional, unit, "alpha = roughness^2; absent: smooth"},
       {"alpha", T::number, optional, unit, "GGX width; instead of roughness"},
   };
   return {
-      {"material/diffuse", "Lambert", {type_field, reflectance}},
+      {"material/diffuse", "Lambert", {type_field, reflectance, texture}},
       {"material/mirror",
        "perfect mirror",
-       {type_field, {"reflectance", T::color, "1", unit, "share of light sent back"}}},
+       {type_field, {"reflectance", T::color, "1", unit, "share of light sent back"}, texture}},
       {"material/dielectric", "glass, smooth or rough (GGX)",
        join({type_field,
              {"ior", T::number, "1.5", {0.1, 10}, "index of the inside over the outside"}},
@@ -153,6 +174,7 @@ std::vector<ObjectSpec> material_specs() {
        {
            type_field,
            {"diffuse", T::color, "0.5", unit, "share of the diffuse part"},
+           {"texture", T::object, optional, any, "image that multiplies the diffuse part"},
            {"specular", T::color, "0.2", unit, "share of the glossy part at normal incidence"},
            {"exponent", T::number, "50", {0, 1e6}, "sharpness of the glossy part"},
        }},

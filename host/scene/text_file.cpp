@@ -29,8 +29,7 @@ std::vector<std::string> sibling_names(const fs::path& path) {
 
 }  // namespace
 
-std::string read_text_file(const std::string& path, const std::string& role,
-                           std::size_t max_bytes) {
+std::uintmax_t check_file(const std::string& path, const std::string& role, std::size_t max_bytes) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (!fs::exists(status))
@@ -43,6 +42,12 @@ std::string read_text_file(const std::string& path, const std::string& role,
   if (!code && size > max_bytes)
     throw InputError(fmt::format("{} '{}' has {} bytes, more than the limit of {} bytes", role,
                                  path, size, max_bytes));
+  return code ? 0 : size;
+}
+
+std::string read_text_file(const std::string& path, const std::string& role,
+                           std::size_t max_bytes) {
+  const std::uintmax_t size = check_file(path, role, max_bytes);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in)

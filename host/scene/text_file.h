@@ -2,13 +2,19 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace pellucid {
 
-/// The whole file as bytes, without a leading UTF-8 byte order mark. Throws InputError, which says
-/// what the file was to be (`role`, such as "scene file") and names near files in the same folder.
+/// Whether there is such a file and it is not too large: throws InputError, which says what the
+/// file was to be (`role`, such as "texture") and names near files in the same folder. Returns its
+/// size, 0 for special files.
+std::uintmax_t check_file(const std::string& path, const std::string& role, std::size_t max_bytes);
+
+/// The whole file as bytes, without a leading UTF-8 byte order mark. Checked as by
+/// check_file().
 std::string read_text_file(const std::string& path, const std::string& role, std::size_t max_bytes);
 
 /// `"a", "b" or "c"`.

@@ -44,6 +44,26 @@ INLINE SinCos sincos_2pi(float u) {
   return r;
 }
 
+/// Angle of the point (x, y) in turns, from -1/2 to 1/2, 0 for (0, 0); absolute error below 2^-24.
+/// Octant by exact symmetries, half of that by the addition theorem, then an odd minimax
+/// polynomial.
+INLINE float atan2_turns(float y, float x) {
+  float ax = r_abs(x), ay = r_abs(y);
+  float low = r_min(ax, ay), high = r_max(ax, ay);
+  if (high == 0.0f) return 0.0f;
+  int upper = low > 0.41421356f * high;  // tan(pi/8)
+  float t = upper ? (low - high) / (low + high) : low / high;
+  float t2 = t * t;
+  float p = r_fma(t2, 0.0126946626859f, -0.0220405567164f);
+  p = r_fma(t2, p, 0.0317897395015f);
+  p = r_fma(t2, p, -0.0530507762263f);
+  p = t * r_fma(t2, p, 0.15915494011f);
+  float turns = upper ? 0.125f + p : p;
+  turns = ay > ax ? 0.25f - turns : turns;
+  turns = x < 0.0f ? 0.5f - turns : turns;
+  return y < 0.0f ? -turns : turns;
+}
+
 /// log2 of a normal positive float as high + low, relative error below 2^-27: pow multiplies it by
 /// up to 126 / log2(x) and must still know the fraction to half an ulp.
 INLINE float log2_split(float x, PRIVATE float* low) {
@@ -104,6 +124,9 @@ INLINE float pow_unit(float x, float y) {
 INLINE SinCos sincos_2pi(real u) {
   SinCos r = {std::sin(TWO_PI * u), std::cos(TWO_PI * u)};
   return r;
+}
+INLINE real atan2_turns(real y, real x) {
+  return std::atan2(y + REAL(0.0), x) * INV_TWO_PI;  // + 0: -0 is not below the axis
 }
 INLINE real pow_unit(real x, real y) {
   return std::pow(x, y);

@@ -15,6 +15,7 @@ typedef float3 real3;
 #define REAL_MAX FLT_MAX
 #define r_sqrt(x) sqrt(x)
 #define r_abs(x) fabs(x)
+#define r_floor(x) floor(x)
 #define r_fma(a, b, c) fma(a, b, c)
 #define real_bits(x) as_uint(x)
 #define real_from_bits(x) as_float(x)

@@ -68,6 +68,9 @@ inline real r_sqrt(real x) {
 inline real r_abs(real x) {
   return std::abs(x);
 }
+inline real r_floor(real x) {
+  return std::floor(x);
+}
 inline real r_fma(real a, real b, real c) {
   return std::fma(a, b, c);
 }

@@ -1,7 +1,9 @@
-// What a hit means: position with its error bound, normals, material and light.
+// What a hit means: position with its error bound, normals, texture coordinates, material and
+// light.
 #ifndef PELLUCID_GEOM_SURFACE_H
 #define PELLUCID_GEOM_SURFACE_H
 
+#include "core/math.h"
 #include "geom/bvh_traverse.h"
 
 typedef struct Surface {
@@ -12,6 +14,9 @@ typedef struct Surface {
   uint material;
   uint flags;  // SHAPE_*
   uint light;  // index of the light this primitive is, or NONE
+#if FEAT_TEXTURE
+  real u, v;  // texture coordinates; 0 unless SHAPE_TEXTURED
+#endif
 } Surface;
 
 /// Sphere: point and error from its outward normal.
@@ -32,6 +37,26 @@ INLINE void disk_point(Quadric q, real3 p, PRIVATE Surface* s) {
   real3 bound = abs3(c) + abs3(s->p) + (real)q.center_radius.w;
   s->offset = (real)(POINT_ERROR_ULPS * UNIT_ROUNDOFF) * dot3(abs3(s->ng), bound);
 }
+
+#if FEAT_TEXTURE
+/// Texture coordinates of a point already known. Sphere: longitude grows eastwards from 0 at the
+/// back to 1, latitude from 0 at the south pole to 1. Disk: the square around it.
+INLINE void quadric_uv(Quadric q, PRIVATE Surface* s) {
+  real3 n = load3(q.normal), t = load3(q.tangent);
+  real3 b = cross3(n, t) * (real)q.tangent.w;
+  if (q.kind == QUADRIC_SPHERE) {
+    real east = dot3(s->ng, b), front = dot3(s->ng, t);
+    s->u = REAL(0.5) + atan2_turns(east, front);
+    // From the pole by its tangent: the arc sine of a height knows only half the digits there.
+    s->v = REAL(1.0) - REAL(2.0) * atan2_turns(r_sqrt(sqr(east) + sqr(front)), dot3(s->ng, n));
+  } else {
+    real3 d = s->p - load3(q.center_radius);
+    real half_inv = REAL(0.5) / (real)q.center_radius.w;
+    s->u = REAL(0.5) + dot3(d, t) * half_inv;
+    s->v = REAL(0.5) + dot3(d, b) * half_inv;
+  }
+}
+#endif
 
 /// Normal of a triangle with edges e1, e2, as long as twice its area over *scale squared. Dividing
 /// by the largest component first keeps squares in range for edges of any length.
@@ -60,6 +85,15 @@ INLINE void triangle_point(PRIVATE const SceneData* scene, Triangle tri, real b1
   real extent = max3(abs3(v1 - v0)) + max3(abs3(v2 - v0));
   s->offset = (real)(POINT_ERROR_ULPS * UNIT_ROUNDOFF) * dot3(abs3(s->ng), bound) +
               (real)(EXTENT_ERROR_ULPS * UNIT_ROUNDOFF) * extent;
+#if FEAT_TEXTURE
+  if (s->flags & SHAPE_TEXTURED) {
+    GLOBAL const float* uv0 = scene->uvs + (size_t)2 * tri.v0;
+    GLOBAL const float* uv1 = scene->uvs + (size_t)2 * tri.v1;
+    GLOBAL const float* uv2 = scene->uvs + (size_t)2 * tri.v2;
+    s->u = (real)uv0[0] * b0 + (real)uv1[0] * b1 + (real)uv2[0] * b2;
+    s->v = (real)uv0[1] * b0 + (real)uv1[1] * b1 + (real)uv2[1] * b2;
+  }
+#endif
 #if FEAT_SMOOTH_NORMALS
   if (s->flags & SHAPE_SMOOTH) {
     real3 n = load3(scene->normals[tri.v0]) * b0 + load3(scene->normals[tri.v1]) * b1 +
@@ -76,6 +110,9 @@ INLINE void surface_shape(PRIVATE const SceneData* scene, uint shape_index, uint
   Shape shape = scene->shapes[shape_index];
   s->material = shape.material;
   s->flags = shape.flags;
+#if FEAT_TEXTURE
+  s->u = s->v = REAL(0.0);
+#endif
   s->light = shape.first_light == NONE ? NONE : shape.first_light + (prim - shape.first_prim);
 }
 
@@ -90,6 +127,9 @@ INLINE Surface quadric_surface(PRIVATE const SceneData* scene, Ray ray, Hit hit)
   } else {
     disk_point(q, p, &s);
   }
+#if FEAT_TEXTURE
+  if (s.flags & SHAPE_TEXTURED) quadric_uv(q, &s);
+#endif
   return s;
 }
 

@@ -15,8 +15,11 @@
   X(Triangle, triangles, "triangles [triangles]")                                              \
   X(F4, positions, "vertices [vertices], world units")                                         \
   X(F4, normals, "unit vertex normals [vertices], only with FEAT_SMOOTH_NORMALS")              \
+  X(float, uvs, "texture coordinates [vertices][2], up to the last textured one")              \
   X(Shape, shapes, "shapes [shapes]")                                                          \
   X(Material, materials, "materials [materials]")                                              \
+  X(Texture, textures, "textures [textures]")                                                  \
+  X(uint, texels, "linear colour as halfs [texels][2]: r + g 2^16, b")                         \
   X(Light, lights, "lights with their alias table [lights]")
 
 // Read and written by the passes of an iteration.

@@ -11,6 +11,7 @@
   X(FEAT_SPHERES, "analytic spheres")                                            \
   X(FEAT_DISKS, "analytic disks")                                                \
   X(FEAT_SMOOTH_NORMALS, "interpolated shading normals")                         \
+  X(FEAT_TEXTURE, "image textures")                                              \
   X(FEAT_ONE_SIDED, "opaque surfaces that are black from behind")                \
   X(FEAT_DIFFUSE, "Lambertian reflection")                                       \
   X(FEAT_PHONG, "modified Phong reflection")                                     \

@@ -29,17 +29,20 @@ LAYOUT_CHECK(Triangle, 16);
 /// An analytic surface; primitive id = triangle_count + index. Written by pack.
 typedef struct Quadric {
   F4 center_radius;  // world units
-  F4 normal;         // disk: unit normal of the front; sphere: 0
+  F4 normal;         // unit: of a disk's front; a sphere's north pole, for its texture
+  F4 tangent;        // unit, for textures: a disk's u axis, the middle meridian of a sphere; w: +1,
+                     // or -1 where mirrored
   uint kind;         // QUADRIC_*
   uint shape;        // index into shapes
   uint pad0, pad1;
 } Quadric;
-LAYOUT_CHECK(Quadric, 48);
+LAYOUT_CHECK(Quadric, 64);
 
 #define SHAPE_ONE_SIDED 1u   // opaque and black when met from behind
 #define SHAPE_SMOOTH 2u      // has vertex normals
 #define SHAPE_EMIT_FRONT 4u  // emits to the side of Ng
 #define SHAPE_EMIT_BACK 8u   // emits to the other side
+#define SHAPE_TEXTURED 16u   // its material has a texture, and its triangles have uvs
 /// What all primitives of one shape share. Written by pack.
 typedef struct Shape {
   uint material;     // index into materials
@@ -81,8 +84,26 @@ typedef struct Material {
   F4 reflectance;  // diffuse, mirror, Phong diffuse part; w: Phong: probability of the diffuse lobe
   F4 eta_specular;  // conductor eta; Phong specular strength, w: Phong exponent
   F4 k;             // conductor k
+  uint texture;     // multiplies reflectance on SHAPE_TEXTURED shapes: index into textures, or NONE
+  float untextured;  // albedo beside reflectance (Phong's glossy part): survives dark texels
+  uint pad0, pad1;
 } Material;
-LAYOUT_CHECK(Material, 64);
+LAYOUT_CHECK(Material, 80);
+
+// Texture.mode: how to go on outside [0, 1], and whether to filter.
+#define TEXTURE_REPEAT 0u
+#define TEXTURE_CLAMP 1u
+#define TEXTURE_MIRROR 2u
+#define TEXTURE_WRAP_MASK 3u
+#define TEXTURE_NEAREST 4u  // no bilinear filter
+/// An image; v = 0 is its bottom row. Written by pack.
+typedef struct Texture {
+  uint first;  // texel of its bottom left corner; rows follow upwards
+  uint width, height;
+  uint mode;        // TEXTURE_*
+  F4 scale_offset;  // looked up at (u x + z, v y + w)
+} Texture;
+LAYOUT_CHECK(Texture, 32);
 
 #define LIGHT_TRIANGLE 0u
 #define LIGHT_SPHERE 1u

@@ -4,13 +4,14 @@
 
 // clang-format off
 #define LAYOUT_STRUCTS(X) \
-  X(Triangle) X(Quadric) X(Shape) X(Material) X(Light) X(SceneInfo) X(Camera) X(Launch) X(FilmPixel)
+  X(Triangle) X(Quadric) X(Shape) X(Material) X(Texture) X(Light) X(SceneInfo) X(Camera) X(Launch) X(FilmPixel)
 
 #define LAYOUT_FIELDS(X)                                                                  \
   X(Triangle, shape)                                                                      \
-  X(Quadric, normal) X(Quadric, kind) X(Quadric, shape)                                   \
+  X(Quadric, normal) X(Quadric, tangent) X(Quadric, kind) X(Quadric, shape)               \
   X(Shape, first_light)                                                                   \
   X(Material, survive) X(Material, reflectance) X(Material, eta_specular) X(Material, k)  \
+  X(Material, texture) X(Texture, mode) X(Texture, scale_offset)                          \
   X(Light, alias) X(Light, value) X(Light, position)                                      \
   X(SceneInfo, center_radius) X(SceneInfo, root) X(SceneInfo, environment)                \
   X(Camera, corner) X(Camera, dx) X(Camera, dy) X(Camera, forward)                        \

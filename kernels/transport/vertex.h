@@ -6,6 +6,7 @@
 #include "bsdf/bsdf.h"
 #include "core/frame.h"
 #include "geom/surface.h"
+#include "geom/texture.h"
 
 /// A vertex of a walk, met from direction wo (unit, pointing to where the walk came from).
 typedef struct Vertex {
@@ -17,12 +18,31 @@ typedef struct Vertex {
   int black;            // one-sided surface met from behind, or wo in a tangent plane
 } Vertex;
 
+#if FEAT_TEXTURE
+/// The base colour times the texel. Roulette goes with the albedo of this very point, so that walks
+/// from both ends agree; rounding it up keeps a white texel without effect: each of its three
+/// roundings, and that of m->survive, is at most one unit.
+INLINE void apply_texture(PRIVATE const SceneData* scene, PRIVATE const Surface* s,
+                          PRIVATE Material* m) {
+  if (!(s->flags & SHAPE_TEXTURED) || m->texture == NONE) return;
+  real3 colour = load3(m->reflectance) * texture_at(scene, m->texture, s->u, s->v);
+  m->reflectance.x = (float)colour.x;
+  m->reflectance.y = (float)colour.y;
+  m->reflectance.z = (float)colour.z;
+  real albedo = (max3(colour) + (real)m->untextured) * (real)(1.0f + 8.0f * UNIT_ROUNDOFF);
+  m->survive = (float)r_min((real)m->survive, albedo);
+}
+#endif
+
 /// ns is flipped to wo independently of ng. A pair (wo, wi) then scatters the same way seen from
 /// either end: both normals only have to agree on reflection or transmission.
 INLINE Vertex vertex_at(PRIVATE const SceneData* scene, Surface surface, real3 wo, int importance) {
   Vertex v;
   v.surface = surface;
   v.material = scene->materials[surface.material];
+#if FEAT_TEXTURE
+  apply_texture(scene, &surface, &v.material);
+#endif
   real cos_g = dot3(surface.ng, wo);
   real cos_s = dot3(surface.ns, wo);
   v.side = cos_g > REAL(0.0) ? REAL(1.0) : REAL(-1.0);

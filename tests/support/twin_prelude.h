@@ -8,6 +8,7 @@
 #define FEAT_SPHERES 1
 #define FEAT_DISKS 1
 #define FEAT_SMOOTH_NORMALS 1
+#define FEAT_TEXTURE 1
 #define FEAT_ONE_SIDED 1
 #define FEAT_DIFFUSE 1
 #define FEAT_PHONG 1
