@@ -9,8 +9,8 @@
 namespace pellucid {
 namespace {
 
-/// 0 to 1 by rounding to nearest: off by at most 2^-11 of the value or, below 2^-14, by 2^-25. Steps
-/// of 8-bit sRGB are at least 0.8 % of the value, 16 times that.
+/// 0 to 1 by rounding to nearest: off by at most 2^-11 of the value or, below 2^-14, by 2^-25.
+/// Steps of 8-bit sRGB are at least 0.8 % of the value, 16 times that.
 uint half_bits(float value) {
   return glm::packHalf1x16(value);
 }

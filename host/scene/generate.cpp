@@ -169,7 +169,8 @@ RawMesh generate(const TorusKnot& shape) {
       const SineCosine angle = sin_cos_turns(static_cast<double>(k) / across);
       mesh.positions.push_back(frame.point +
                                tube * (angle.cos * frame.normal + angle.sin * frame.binormal));
-      mesh.uvs.emplace_back(static_cast<double>(i) / along, static_cast<double>(k) / across);
+      mesh.uvs.emplace_back(static_cast<double>(i) / along,
+                            static_cast<double>((across - k) % across) / across);
     }
   }
   mesh.triangles.reserve(std::size_t{2} * along * across);

@@ -15,8 +15,8 @@ namespace pellucid {
 struct RawMesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::dvec3> normals;
-  std::vector<glm::dvec2> uvs;  ///< u NaN: undefined, as at the pole of a sphere
   std::vector<glm::uvec3> triangles;
+  std::vector<glm::dvec2> uvs = {};  ///< u NaN: undefined, as at the pole of a sphere
 };
 
 /// Gives every vertex the mean of its triangles' normals, weighted by area.

@@ -68,8 +68,8 @@ struct Emission {
 struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
-  std::vector<glm::vec2> uvs;
   std::vector<glm::uvec3> triangles;
+  std::vector<glm::vec2> uvs = {};
 };
 struct Sphere {  ///< normal points outwards
   glm::dvec3 center{0.0};

@@ -31,7 +31,8 @@ def compile_pass(name, triple, on, width):
 
 
 sets = [set(EFFECTS), set(), {"FEAT_TRIANGLES", "FEAT_DIFFUSE", "FEAT_LIGHT_TRIANGLE"},
-        {"FEAT_SPHERES", "FEAT_DIELECTRIC", "FEAT_LIGHT_ENVIRONMENT"}]
+        {"FEAT_SPHERES", "FEAT_DIELECTRIC", "FEAT_LIGHT_ENVIRONMENT"},
+        {"FEAT_DISKS", "FEAT_TEXTURE", "FEAT_DIFFUSE", "FEAT_LIGHT_POINT"}]
 failed = count = 0
 for path in sorted((KERNELS / "passes").glob("*.cl")):
     runs = [("spir64", effects, method, 16) for effects, method in itertools.product(sets, METHODS)]

@@ -77,7 +77,7 @@ TEST(SceneObj, MaterialsBecomeTheNearestOfOurs) {
 
 TEST(SceneObj, WhatIsMissingIsListedOncePerKind) {
   const test::TempFolder folder;
-  folder.write("m.mtl", "newmtl a\nKd 1 1 1\nmap_Kd a.png\nnewmtl b\nmap_Kd b.png\nbump c.png\n");
+  folder.write("m.mtl", "newmtl a\nKd 1 1 1\nmap_Ke a.png\nnewmtl b\nmap_Ke b.png\nbump c.png\n");
   folder.write("m.obj", "mtllib m.mtl\n" + square + "usemtl a\nf 1 2 3 4\nl 1 2\nl 2 3\n");
   const std::string mesh = R"({"type": "mesh", "file": "m.obj"})";
   const Scene scene =
@@ -85,7 +85,7 @@ TEST(SceneObj, WhatIsMissingIsListedOncePerKind) {
           "environment", "radiance": 1})")));
   ASSERT_EQ(scene.warnings.size(), 3u);
   EXPECT_NE(scene.warnings[0].find("\"bump\""), std::string::npos);
-  EXPECT_NE(scene.warnings[1].find("\"map_Kd\""), std::string::npos);
+  EXPECT_NE(scene.warnings[1].find("\"map_Ke\""), std::string::npos);
   EXPECT_NE(scene.warnings[2].find("\"l\""), std::string::npos);
 }
 

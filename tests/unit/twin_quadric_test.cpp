@@ -109,6 +109,7 @@ TEST(TwinQuadric, DiskPointLiesOnItsPlane) {
     pellucid::Scene unused;
     Quadric q{{float(c.x), float(c.y), float(c.z), 2},
               {float(n.x), float(n.y), float(n.z), 0},
+              {},
               QUADRIC_DISK,
               0,
               0,
