@@ -89,6 +89,17 @@ TEST(SceneGenerate, ClosedShapesAreWatertightAndOutwards) {
   EXPECT_NEAR(signed_volume(cube), 8.0, 1e-12);
 }
 
+TEST(SceneGenerate, AnglesAreThoseOfTheLibrary) {
+  constexpr double two_pi = 6.283185307179586476925;
+  const double quarters[4][2] = {{0, 1}, {1, 0}, {0, -1}, {-1, 0}};
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(angle_turns(quarters[i][0], quarters[i][1]), 0.25 * i);
+  for (int i = 0; i < 100000; ++i) {
+    const double y = 2 * hash_unit(1, unsigned(i)) - 1, x = 2 * hash_unit(2, unsigned(i)) - 1;
+    const double turns = std::atan2(y, x) / two_pi;
+    ASSERT_NEAR(angle_turns(y, x), turns < 0 ? turns + 1 : turns, 4e-16) << y << " " << x;
+  }
+}
+
 TEST(SceneGenerate, SheetsFaceUpAndHaveTheAskedSize) {
   for (int triangles : sizes) {
     SCOPED_TRACE(triangles);

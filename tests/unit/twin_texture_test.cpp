@@ -119,6 +119,50 @@ TEST(TwinTexture, RowsGoUpwardsAndScaleComesBeforeOffset) {
   EXPECT_EQ(at(scene, 0.0, 0.5), 0.5);    // (0.25, 0.75)
 }
 
+/// The same filter in double, written apart: a sum over texels of the infinitely repeated picture.
+double reference_at(const std::vector<float>& greys, int width, int height, TextureWrap wrap,
+                    double u, double v) {
+  const auto index = [&](int i, int size) {
+    if (wrap == TextureWrap::clamp) return std::clamp(i, 0, size - 1);
+    const int period = wrap == TextureWrap::repeat ? size : 2 * size;
+    i = ((i % period) + period) % period;
+    return i < size ? i : period - 1 - i;
+  };
+  const double x = u * width - 0.5, y = v * height - 0.5;
+  double sum = 0;
+  for (int j = int(std::floor(y)); j <= int(std::floor(y)) + 1; ++j)
+    for (int i = int(std::floor(x)); i <= int(std::floor(x)) + 1; ++i)
+      sum += (1 - std::abs(x - i)) * (1 - std::abs(y - j)) *
+             double(greys[std::size_t(index(j, height) * width + index(i, width))]);
+  return sum;
+}
+
+TEST(TwinTexture, AnySizeAndPlaceAgreesWithDouble) {
+  Random random(3);
+  double worst = 0;
+  for (const glm::ivec2 size : {glm::ivec2(7, 5), {1, 3}, {2, 1}, {100, 64}})
+    for (TextureWrap wrap : wraps) {
+      std::vector<float> greys;
+      for (int i = 0; i < size.x * size.y; ++i)
+        greys.push_back(glm::unpackHalf1x16(glm::uint16(random.below(0x3c01))));
+      Scene scene = textured_scene(size.x, size.y, greys);
+      scene.textures[0].wrap = wrap;
+      const TwinScene t(scene);
+      for (int i = 0; i < 20000; ++i) {
+        const real u = real(random.uniform(-3, 3)), v = real(random.uniform(-3, 3));
+        const double exact = reference_at(greys, size.x, size.y, wrap, double(u), double(v));
+        // Slopes are at most 1 per texel and axis; coordinates are rounded three times at up to
+        // 3 times the size, and the filter itself a few times at 1.
+        const double unit = is_float ? double(UNIT_ROUNDOFF) : 0x1p-53;
+        const double bound = unit * (3 * 3 * (size.x + size.y) + 8);
+        const double error = std::abs(double(texture_at(&t.data, 0, u, v).y) - exact);
+        ASSERT_LT(error, bound) << u << " " << v;
+        worst = std::max(worst, error / bound);
+      }
+    }
+  std::printf("bilinear filter: at most %.2f of its bound\n", worst);
+}
+
 // Several images share the buffer of texels, and each texture finds its own.
 TEST(TwinTexture, TexturesKeepToTheirImages) {
   Scene scene = textured_scene(1, 1, {0.25f});
