@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <unordered_map>
 
@@ -27,6 +28,9 @@ class LibraryReader : public tinyobj::MaterialReader {
   LibraryReader(std::string obj_path, ObjModel& model)
       : obj_path_(std::move(obj_path)), model_(model) {}
 
+  /// Names of materials that use the PBR extension.
+  const std::set<std::string>& principled() const { return principled_; }
+
   bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* index, std::string* warn, std::string* err) override {
     const auto path = (std::filesystem::path(obj_path_).parent_path() / name).string();
@@ -36,7 +40,7 @@ class LibraryReader : public tinyobj::MaterialReader {
     } catch (const InputError& error) {
       throw InputError(fmt::format("{} (named by '{}'){}", error.what(), obj_path_, remedy));
     }
-    scan_mtl(path, text, model_.not_supported);
+    principled_.merge(scan_mtl(path, text, model_.not_supported));
     model_.files.push_back(path);
     std::istringstream in(text);
     tinyobj::LoadMtl(index, materials, &in, warn, err);
@@ -46,6 +50,7 @@ class LibraryReader : public tinyobj::MaterialReader {
  private:
   std::string obj_path_;
   ObjModel& model_;
+  std::set<std::string> principled_;
 };
 
 void check_materials(const std::string& path, const ObjScan& scan,
@@ -138,7 +143,8 @@ void add_parts(const tinyobj::shape_t& shape, const tinyobj::attrib_t& attrib,
 }
 
 /// Converts the materials in use and renumbers the parts accordingly.
-void convert_materials(const std::vector<tinyobj::material_t>& materials, ObjModel& model) {
+void convert_materials(const std::vector<tinyobj::material_t>& materials,
+                       const std::set<std::string>& principled, ObjModel& model) {
   std::map<int, int> renumbered;
   std::vector<std::optional<Emission>> emissions;
   for (ObjPart& part : model.parts) {
@@ -147,7 +153,8 @@ void convert_materials(const std::vector<tinyobj::material_t>& materials, ObjMod
     if (added) {
       PELLUCID_CHECK(part.material >= 0, "a face without material slipped through the scan");
       const auto id = static_cast<std::size_t>(part.material);
-      MtlSurface surface = convert_mtl(materials[id], model.warnings);
+      MtlSurface surface =
+          convert_mtl(materials[id], principled.count(materials[id].name) != 0, model.warnings);
       model.materials.push_back(std::move(surface.material));
       emissions.push_back(surface.emission);
     }
@@ -179,7 +186,7 @@ ObjModel load_obj(const std::string& path, const ObjOptions& options) {
   if (!options.ignore_materials && !shapes.empty()) check_materials(path, scan, materials);
   for (const tinyobj::shape_t& shape : shapes) add_parts(shape, attrib, options, model);
   if (model.parts.empty()) throw InputError(fmt::format("{}: the file has no faces", path));
-  if (!options.ignore_materials) convert_materials(materials, model);
+  if (!options.ignore_materials) convert_materials(materials, reader.principled(), model);
   return model;
 }
 

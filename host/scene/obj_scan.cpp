@@ -148,12 +148,18 @@ ObjScan scan_obj(const std::string& path, const std::string& text) {
   return scan;
 }
 
-void scan_mtl(const std::string& path, const std::string& text,
-              std::map<std::string, std::string>& not_supported) {
+std::set<std::string> scan_mtl(const std::string& path, const std::string& text,
+                               std::map<std::string, std::string>& not_supported) {
   // Keyword -> how many numbers follow. Ka is read past: ambient light has no place in transport.
+  // Pcr and anisor say how a clearcoat and anisotropy look, which have no effect themselves.
   static const std::map<std::string_view, std::size_t> known = {
-      {"newmtl", 0}, {"Ka", 3}, {"Kd", 3}, {"Ks", 3}, {"Ke", 3}, {"Tf", 3},
-      {"Kt", 3},     {"Ns", 1}, {"Ni", 1}, {"d", 1},  {"Tr", 1}, {"illum", 1}};
+      {"newmtl", 0}, {"Ka", 3}, {"Kd", 3},  {"Ks", 3},    {"Ke", 3},    {"Tf", 3}, {"Kt", 3},
+      {"Ns", 1},     {"Ni", 1}, {"d", 1},   {"Tr", 1},    {"illum", 1}, {"Pr", 1}, {"Pm", 1},
+      {"Ps", 1},     {"Pc", 1}, {"Pcr", 1}, {"aniso", 1}, {"anisor", 1}};
+  // Exporters write these to every material; where they are 0 nothing is missing.
+  static const std::set<std::string_view> only_zero = {"Ps", "Pc", "aniso"};
+  std::set<std::string> principled;
+  std::string material;
   for (LineReader line(path, text); line.next();) {
     const std::string_view key = line.words()[0];
     const auto found = known.find(key);
@@ -163,7 +169,12 @@ void scan_mtl(const std::string& path, const std::string& text,
     }
     for (std::size_t i = 1; i <= found->second; ++i)
       if (line.real(i) < 0.0) line.fail(fmt::format("{} must not be negative", key));
+    if (key == "newmtl" && line.words().size() > 1) material = line.rest();
+    if (key == "Pr" || key == "Pm") principled.insert(material);
+    if (only_zero.count(key) != 0 && line.real(1) > 0.0)
+      not_supported.emplace("MTL \"" + std::string(key) + "\"", path);
   }
+  return principled;
 }
 
 }  // namespace pellucid

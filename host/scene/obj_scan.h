@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 
 namespace pellucid {
@@ -18,7 +19,8 @@ struct ObjScan {
 ObjScan scan_obj(const std::string& path, const std::string& text);
 
 /// Checks the numbers of an MTL text and collects the keywords that pellucid has no use for.
-void scan_mtl(const std::string& path, const std::string& text,
-              std::map<std::string, std::string>& not_supported);
+/// Returns the names of materials that say Pr or Pm: the PBR extension, read as "principled".
+std::set<std::string> scan_mtl(const std::string& path, const std::string& text,
+                               std::map<std::string, std::string>& not_supported);
 
 }  // namespace pellucid
