@@ -167,6 +167,12 @@ std::vector<ObjectSpec> material_specs() {
            {"specular", T::color, "0.2", unit, "share of the glossy part at normal incidence"},
            {"exponent", T::number, "50", {0, 1e6}, "sharpness of the glossy part"},
        }},
+  };
+}
+
+/// Materials made of others.
+std::vector<ObjectSpec> blend_specs() {
+  return {
       {"material/mix",
        "weighted sum of two materials",
        {
@@ -291,7 +297,8 @@ std::vector<ObjectSpec> light_specs() {
 const std::vector<ObjectSpec>& object_specs() {
   static const std::vector<ObjectSpec> specs = [] {
     std::vector<ObjectSpec> all = scene_specs();
-    for (auto* part : {&part_specs, &material_specs, &solid_specs, &generated_specs, &light_specs})
+    for (auto* part :
+         {&part_specs, &material_specs, &blend_specs, &solid_specs, &generated_specs, &light_specs})
       for (ObjectSpec& spec : (*part)()) all.push_back(std::move(spec));
     return all;
   }();

@@ -152,26 +152,25 @@ std::vector<BsdfCase> density_cases() {
   add(cases, "diffuse", diffuse({0.8, 0.5, 0.2}), 1.0);
   for (double n : {0.0, 1.0, 90.0, 1e4})
     add(cases, "phong n " + std::to_string(n), phong({0.3, 0.2, 0.1}, {0.4, 0.5, 0.6}, n), 1.0);
-  for (double r : {0.0, 0.3, 1.0})
-    add(cases, "oren-nayar " + std::to_string(r), oren_nayar({0.8, 0.5, 1.0}, r), 1.0);
-  for (double ior : {1.0, 1.5, 2.5})
-    for (double rho : {0.7, 0.0}) {
-      const std::size_t first = cases.size();
-      add(cases, "plastic " + std::to_string(ior), plastic({rho, 0.5, rho}, ior, 0), 1.0);
-      for (std::size_t i = first; i < cases.size(); ++i)
-        cases[i].delta_albedo = fresnel_of(cases[i].wo.z, ior);
-    }
-  add_mixes(cases);
   const double alphas[] = {1.0, 0.3, 0.05, 5e-3, 1e-3};
-  for (double alpha : alphas)
-    for (double rho : {0.7, 0.0})
-      add(cases, "rough plastic alpha " + std::to_string(alpha),
-          plastic({rho, 0.5, rho}, 1.5, alpha), 1.0);
   for (double alpha : alphas) add(cases, "gold alpha " + std::to_string(alpha), gold(alpha), 1.0);
   for (double ior : {1.5, 1 / 1.5, 2.4, 1.0001})
     for (double alpha : alphas)
       add(cases, "glass ior " + std::to_string(ior) + " alpha " + std::to_string(alpha),
           glass(ior, alpha), ior);
+  for (double r : {0.0, 0.3, 1.0})
+    add(cases, "oren-nayar " + std::to_string(r), oren_nayar({0.8, 0.5, 1.0}, r), 1.0);
+  for (double ior : {1.0, 1.5, 2.5}) {
+    const std::size_t first = cases.size();
+    add(cases, "plastic " + std::to_string(ior), plastic({0.7, 0.5, 0}, ior, 0), 1.0);
+    for (std::size_t i = first; i < cases.size(); ++i)
+      cases[i].delta_albedo = fresnel_of(cases[i].wo.z, ior);
+  }
+  for (double alpha : {1.0, 0.3, 0.05, 1e-3})
+    add(cases, "rough plastic alpha " + std::to_string(alpha), plastic({0.7, 0.5, 0}, 1.5, alpha),
+        1.0);
+  add(cases, "black rough plastic", plastic({0, 0, 0}, 1.5, 0.1), 1.0);
+  add_mixes(cases);
   return cases;
 }
 
