@@ -17,10 +17,6 @@ uint emission_flags(const Shape& shape) {
   return shape.emission->sides == 2 ? SHAPE_EMIT_FRONT | SHAPE_EMIT_BACK : SHAPE_EMIT_FRONT;
 }
 
-bool transmissive(const Scene& scene, const Shape& shape) {
-  return scene.materials[shape.material].kind == MaterialKind::dielectric;
-}
-
 void add_mesh(const Mesh& mesh, uint shape_index, PackedScene& out) {
   const auto base = static_cast<uint>(out.positions.size());
   for (const glm::vec3& p : mesh.positions) out.positions.push_back(F4{p.x, p.y, p.z, 0.0f});
@@ -38,12 +34,12 @@ void add_mesh(const Mesh& mesh, uint shape_index, PackedScene& out) {
     out.triangles.push_back(Triangle{base + t.x, base + t.y, base + t.z, shape_index});
 }
 
-::Shape pack_shape(const Scene& scene, const Shape& shape, FeatureSet& features) {
+::Shape pack_shape(const ::Material& material, const Shape& shape, FeatureSet& features) {
   ::Shape out{};
   out.material = static_cast<uint>(shape.material);
   out.flags = emission_flags(shape);
   out.first_light = NONE;
-  if (shape.sides == 1 && !transmissive(scene, shape)) {
+  if (shape.sides == 1 && !(material.lobes & LOBE_TRANSMIT)) {
     out.flags |= SHAPE_ONE_SIDED;
     features.set(FEAT_ONE_SIDED);
   }
@@ -213,7 +209,7 @@ void pack_shapes(const Scene& scene, PackedScene& out) {
   uint first_triangle = 0, first_quadric = static_cast<uint>(triangles);
   for (const Shape& shape : scene.shapes) {
     const auto index = static_cast<uint>(out.shapes.size());
-    ::Shape packed = pack_shape(scene, shape, out.features);
+    ::Shape packed = pack_shape(out.materials.at(std::size_t(shape.material)), shape, out.features);
     if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
       packed.first_prim = first_triangle;
       first_triangle += static_cast<uint>(mesh->triangles.size());

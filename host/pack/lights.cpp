@@ -15,6 +15,12 @@ double mean(const Rgb& c) {
   return (c.x + c.y + c.z) / 3.0;
 }
 
+/// Without cancellation for narrow cones.
+double one_minus_cos(double angle) {
+  const double s = std::sin(0.5 * angle);
+  return 2 * s * s;
+}
+
 struct Builder {
   PackedScene& out;
   std::vector<double> power;
@@ -63,6 +69,11 @@ struct Builder {
     if (const auto* p = std::get_if<PointLight>(&light)) {
       add(LIGHT_POINT, NONE, p->intensity, p->position, 4 * pi * mean(p->intensity),
           FEAT_LIGHT_POINT);
+    } else if (const auto* s = std::get_if<SpotLight>(&light)) {
+      add(LIGHT_SPOT, NONE, s->intensity, s->position, spot_solid_angle(*s) * mean(s->intensity),
+          FEAT_LIGHT_SPOT);
+      out.lights.back().position.w = float(one_minus_cos(s->inner));
+      out.lights.back().axis = to_f4(s->direction, one_minus_cos(s->outer));
     } else if (const auto* d = std::get_if<DirectionalLight>(&light)) {
       add(LIGHT_DIRECTIONAL, NONE, d->irradiance, d->direction, disc * mean(d->irradiance),
           FEAT_LIGHT_DIRECTIONAL);

@@ -43,7 +43,7 @@ PackedScene pack_scene(const Scene& scene, const PackOptions& options) {
                  "lanes of a node");
   PackedScene out;
   out.simd_width = options.simd_width;
-  for (const Material& m : scene.materials) out.materials.push_back(pack_material(m, out.features));
+  pack_materials(scene.materials, out);
   pack_shapes(scene, out);
   if (out.features.has(FEAT_TEXTURE)) pack_textures(scene, out);
   pack_bvh(out);

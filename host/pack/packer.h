@@ -9,8 +9,10 @@ inline F4 to_f4(const glm::dvec3& v, double w = 0.0) {
   return F4{float(v.x), float(v.y), float(v.z), float(w)};
 }
 
-/// materials.cpp: one material, with its feature.
+/// materials.cpp: one material that is no mix, with its feature.
 ::Material pack_material(const Material& material, FeatureSet& features);
+/// materials.cpp: the scene's materials in its order, then the parts of mixes.
+void pack_materials(const std::vector<Material>& materials, PackedScene& out);
 
 /// geometry.cpp: shapes, triangles, quadrics (in scene order: primitive ids do not depend on the
 /// BVH).

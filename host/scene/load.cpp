@@ -45,7 +45,7 @@ void parse_lights(const JsonNode& list, Scene& scene) {
     const Rgb strength = std::visit(
         [](const auto& l) {
           using L = std::decay_t<decltype(l)>;
-          if constexpr (std::is_same_v<L, PointLight>)
+          if constexpr (std::is_same_v<L, PointLight> || std::is_same_v<L, SpotLight>)
             return l.intensity;
           else if constexpr (std::is_same_v<L, DirectionalLight>)
             return l.irradiance;

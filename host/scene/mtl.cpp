@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "scene/principled.h"
+
 namespace pellucid {
 namespace {
 
@@ -35,6 +37,26 @@ Rgb at_most_one(Rgb c, const std::string& name, const char* key,
   return c / most;
 }
 
+double at_most_one(double v, const std::string& name, const char* key,
+                   std::vector<std::string>& warnings) {
+  return at_most_one(Rgb(v), name, key, warnings).x;
+}
+
+/// 1 is what exporters write when they do not know.
+double index_of(const tinyobj::material_t& mtl, double low, double high) {
+  return mtl.ior == 1.0f ? 1.5 : std::clamp<double>(mtl.ior, low, high);
+}
+
+Material convert_principled(const tinyobj::material_t& mtl, std::vector<std::string>& warnings) {
+  Principled look;
+  look.base_color = at_most_one(to_rgb(mtl.diffuse), mtl.name, "Kd", warnings);
+  look.metallic = at_most_one(mtl.metallic, mtl.name, "Pm", warnings);
+  look.roughness = at_most_one(mtl.roughness, mtl.name, "Pr", warnings);
+  look.transmission = is_glass(mtl) ? 1.0 : 0.0;
+  look.ior = index_of(mtl, 1.0, 3.0);
+  return principled_material(look);
+}
+
 void convert_glossy(const tinyobj::material_t& mtl, Material& material,
                     std::vector<std::string>& warnings) {
   material.kind = MaterialKind::phong;
@@ -51,17 +73,18 @@ void convert_glossy(const tinyobj::material_t& mtl, Material& material,
 
 }  // namespace
 
-MtlSurface convert_mtl(const tinyobj::material_t& mtl, std::vector<std::string>& warnings) {
+MtlSurface convert_mtl(const tinyobj::material_t& mtl, bool principled,
+                       std::vector<std::string>& warnings) {
   MtlSurface surface;
   Material& material = surface.material;
-  material.name = mtl.name;
   const Rgb kd = to_rgb(mtl.diffuse), ks = to_rgb(mtl.specular), ke = to_rgb(mtl.emission);
-  material.reflectance = kd;
   if (ke != Rgb(0.0)) surface.emission = Emission{ke, 1};
-  if (is_glass(mtl)) {
+  material.reflectance = kd;
+  if (principled) {
+    material = convert_principled(mtl, warnings);
+  } else if (is_glass(mtl)) {
     material.kind = MaterialKind::dielectric;
-    material.ior = std::clamp<double>(mtl.ior, 0.1, 10.0);
-    if (mtl.ior == 1.0f) material.ior = 1.5;  // 1 is what exporters write when they do not know
+    material.ior = index_of(mtl, 0.1, 10.0);
   } else if (mtl.illum == 3) {
     material.kind = MaterialKind::mirror;
     material.reflectance = at_most_one(ks != Rgb(0.0) ? ks : kd, mtl.name, "Ks", warnings);
@@ -70,6 +93,7 @@ MtlSurface convert_mtl(const tinyobj::material_t& mtl, std::vector<std::string>&
   } else {
     material.reflectance = at_most_one(kd, mtl.name, "Kd", warnings);
   }
+  material.name = mtl.name;
   return surface;
 }
 

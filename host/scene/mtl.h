@@ -17,6 +17,8 @@ struct MtlSurface {
 };
 
 /// The nearest of our materials, and warnings where it had to be changed to keep physics.
-MtlSurface convert_mtl(const tinyobj::material_t& mtl, std::vector<std::string>& warnings);
+/// `principled`: the file gives the material's Pr or Pm.
+MtlSurface convert_mtl(const tinyobj::material_t& mtl, bool principled,
+                       std::vector<std::string>& warnings);
 
 }  // namespace pellucid

@@ -175,15 +175,17 @@ void add_parts(const tinyobj::shape_t& shape, const tinyobj::attrib_t& attrib,
 /// Converts one material; its map_Kd goes with it where the result has a base colour.
 void convert_material(const tinyobj::material_t& mtl, const MtlScan& scan, ObjModel& model,
                       std::vector<std::optional<Emission>>& emissions) {
-  MtlSurface surface = convert_mtl(mtl, model.warnings);
+  MtlSurface surface = convert_mtl(mtl, scan.principled.count(mtl.name) != 0, model.warnings);
   std::optional<MtlTexture> texture;
   const auto found = scan.textures.find(mtl.name);
   const MaterialKind kind = surface.material.kind;
   if (found != scan.textures.end()) {
-    if (kind == MaterialKind::diffuse || kind == MaterialKind::phong) {
+    if (kind == MaterialKind::diffuse || kind == MaterialKind::phong ||
+        kind == MaterialKind::plastic) {
       texture = found->second;
     } else {
-      model.not_supported.emplace("MTL \"map_Kd\" of glass and mirrors", found->second.place);
+      model.not_supported.emplace("MTL \"map_Kd\" of glass, metal and mirrors",
+                                  found->second.place);
     }
   }
   model.materials.push_back(std::move(surface.material));

@@ -205,9 +205,13 @@ ObjScan scan_obj(const std::string& path, const std::string& text) {
 
 MtlScan scan_mtl(const std::string& path, const std::string& text) {
   // Keyword -> how many numbers follow. Ka is read past: ambient light has no place in transport.
+  // Pcr and anisor say how a clearcoat and anisotropy look, which have no effect themselves.
   static const std::map<std::string_view, std::size_t> known = {
-      {"newmtl", 0}, {"Ka", 3}, {"Kd", 3}, {"Ks", 3}, {"Ke", 3}, {"Tf", 3},
-      {"Kt", 3},     {"Ns", 1}, {"Ni", 1}, {"d", 1},  {"Tr", 1}, {"illum", 1}};
+      {"newmtl", 0}, {"Ka", 3}, {"Kd", 3},  {"Ks", 3},    {"Ke", 3},    {"Tf", 3}, {"Kt", 3},
+      {"Ns", 1},     {"Ni", 1}, {"d", 1},   {"Tr", 1},    {"illum", 1}, {"Pr", 1}, {"Pm", 1},
+      {"Ps", 1},     {"Pc", 1}, {"Pcr", 1}, {"aniso", 1}, {"anisor", 1}};
+  // Exporters write these to every material; where they are 0 nothing is missing.
+  static const std::set<std::string_view> only_zero = {"Ps", "Pc", "aniso"};
   MtlScan scan;
   std::string material;
   for (LineReader line(path, text); line.next();) {
@@ -225,6 +229,9 @@ MtlScan scan_mtl(const std::string& path, const std::string& text) {
       if (line.real(i) < 0.0) line.fail(fmt::format("{} must not be negative", key));
     if (key == "newmtl") material = line.words().size() > 1 ? line.rest() : "";
     if (key == "Kd") scan.coloured.insert(material);
+    if (key == "Pr" || key == "Pm") scan.principled.insert(material);
+    if (only_zero.count(key) != 0 && line.real(1) > 0.0)
+      scan.not_supported.emplace("MTL \"" + std::string(key) + "\"", path);
   }
   return scan;
 }

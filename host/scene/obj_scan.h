@@ -30,12 +30,14 @@ struct MtlTexture {
 struct MtlScan {
   std::map<std::string, MtlTexture> textures;        ///< by material
   std::set<std::string> coloured;                    ///< materials that have Kd
+  std::set<std::string> principled;                  ///< materials that have Pr or Pm
   std::map<std::string, std::string> not_supported;  ///< kind -> file
 
   /// Adds what another file says; what is there already stays.
   void merge(MtlScan other) {
     textures.merge(other.textures);
     coloured.merge(other.coloured);
+    principled.merge(other.principled);
     not_supported.merge(other.not_supported);
   }
 };

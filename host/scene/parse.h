@@ -25,8 +25,7 @@ Camera parse_camera(const JsonNode& node);
 Light parse_light(const JsonNode& node);
 Emission parse_emission(const JsonNode& node);
 
-/// A material without its name.
-Material parse_material(const JsonNode& node);
+/// All of "materials". Mixes may name materials that stand after them.
 void parse_materials(const JsonNode& node, SceneBuilder& builder);
 
 /// A "texture" of a material: reads its image unless another one did; index into Scene::textures.

@@ -52,6 +52,29 @@ Emission parse_emission(const JsonNode& node) {
   return {reader.color("radiance"), reader.integer("sides")};
 }
 
+namespace {
+
+SpotLight parse_spot(const ObjectReader& reader) {
+  SpotLight spot;
+  spot.position = reader.vector("position");
+  if (reader.exactly_one({"target", "direction"}) == "target") {
+    const glm::dvec3 view = reader.vector("target") - spot.position;
+    if (!(glm::length(view) > 0.0))
+      fail(reader.place("target"), "target and position are the same point");
+    spot.direction = glm::normalize(view);
+  } else {
+    spot.direction = unit_vector(reader, "direction");
+  }
+  spot.outer = 0.5 * reader.number("angle") * pi / 180.0;
+  spot.inner = spot.outer * (1.0 - reader.number("falloff"));
+  spot.intensity = reader.exactly_one({"intensity", "power"}) == "power"
+                       ? reader.color("power") / spot_solid_angle(spot)
+                       : reader.color("intensity");
+  return spot;
+}
+
+}  // namespace
+
 Light parse_light(const JsonNode& node) {
   const ObjectSpec& spec = typed_spec(node, "light");
   const ObjectReader reader(node, spec);
@@ -60,6 +83,7 @@ Light parse_light(const JsonNode& node) {
     return PointLight{reader.vector("position"),
                       by_power ? reader.color("power") / (4.0 * pi) : reader.color("intensity")};
   }
+  if (spec.name == "light/spot") return parse_spot(reader);
   if (spec.name == "light/directional")
     return DirectionalLight{unit_vector(reader, "direction"), reader.color("irradiance")};
   PELLUCID_CHECK(spec.name == "light/environment", "a light of the table has no parser");

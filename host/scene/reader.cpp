@@ -74,8 +74,7 @@ void check_color(const JsonNode& node, const Range& range) {
 }
 
 void check_text(const JsonNode& node, const Field& field) {
-  expect_kind(node, Kind::string, "a text");
-  if (node.text.empty()) fail(node, "must not be empty");
+  read_text(node);
   if (field.type != FieldType::choice) return;
   if (std::find(field.choices.begin(), field.choices.end(), node.text) == field.choices.end())
     fail(node, fmt::format("\"{}\" is not known here.{} Valid: {}", printable(node.text),
@@ -222,6 +221,12 @@ const ObjectSpec& typed_spec(const JsonNode& node, const std::string& family) {
          fmt::format("there is no {} of type \"{}\".{} Valid: {}", family, printable(type->text),
                      did_you_mean(printable(type->text), types), list_choices(types)));
   return object_spec(family + "/" + type->text);
+}
+
+const std::string& read_text(const JsonNode& node) {
+  expect_kind(node, Kind::string, "a text");
+  if (node.text.empty()) fail(node, "must not be empty");
+  return node.text;
 }
 
 glm::dvec3 read_vector(const JsonNode& node, const Range& range) {

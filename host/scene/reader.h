@@ -47,6 +47,9 @@ class ObjectReader {
 /// The table of `family` that the object's "type" picks.
 const ObjectSpec& typed_spec(const JsonNode& node, const std::string& family);
 
+/// A text that is not empty.
+const std::string& read_text(const JsonNode& node);
+
 /// A list of three numbers in range.
 glm::dvec3 read_vector(const JsonNode& node, const Range& range);
 

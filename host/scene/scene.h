@@ -2,6 +2,7 @@
 // space. No OpenCL, no file formats here. Right-handed world, colours linear Rec.709.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -26,6 +27,10 @@ enum class MaterialKind {
   dielectric,  ///< Fresnel glass: ior (inside over outside), alpha (0 = smooth)
   conductor,   ///< GGX metal: eta, k, alpha (0 = smooth)
   phong,       ///< modified Phong: reflectance (diffuse) + specular * (n+2)/(2 pi) cos^n
+  oren_nayar,  ///< rough diffuse: reflectance, roughness
+  plastic,     ///< diffuse under a dielectric coat: reflectance, ior (of the coat), alpha (of it)
+  thin_dielectric,  ///< pane of glass without thickness: ior
+  mix,              ///< weighted sum of parts
 };
 
 /// A picture in linear Rec.709 from 0 to 1, bottom row first.
@@ -49,11 +54,14 @@ struct Material {
   MaterialKind kind = MaterialKind::diffuse;
   Rgb reflectance{0.5};
   std::optional<int> texture;  ///< index into Scene::textures; multiplies reflectance
-  Rgb specular{0.0};      ///< Phong: hemispherical strength of the glossy lobe at normal incidence
-  double exponent = 1.0;  ///< Phong exponent n >= 0
-  double ior = 1.5;       ///< dielectric, index of the inside over the outside, > 0
-  double alpha = 0.0;     ///< GGX width in [0, 1]; alpha = roughness^2
-  Rgb eta{0.0}, k{0.0};   ///< conductor: complex index of refraction per channel
+  Rgb specular{0.0};       ///< Phong: hemispherical strength of the glossy lobe at normal incidence
+  double exponent = 1.0;   ///< Phong exponent n >= 0
+  double ior = 1.5;        ///< dielectric, index of the inside over the outside, > 0; plastic: >= 1
+  double alpha = 0.0;      ///< GGX width in [0, 1]; alpha = roughness^2
+  Rgb eta{0.0}, k{0.0};    ///< conductor: complex index of refraction per channel
+  double roughness = 0.0;  ///< Oren-Nayar, in [0, 1]
+  std::vector<Material> parts;  ///< mix: at least one, may be mixes themselves
+  double weight = 1.0;          ///< of a part in its mix; the weights of a mix add up to 1
 };
 
 /// Light that a surface gives off, the same in all directions of the emitting side(s).
@@ -98,6 +106,20 @@ struct PointLight {
   glm::dvec3 position{0.0};
   Rgb intensity{1.0};  ///< W/sr per channel
 };
+/// A point light through a cone: full intensity within the inner angle, none beyond the outer.
+struct SpotLight {
+  glm::dvec3 position{0.0};
+  glm::dvec3 direction{0.0, -1.0, 0.0};  ///< unit, along the middle of the cone
+  Rgb intensity{1.0};                    ///< W/sr per channel in the middle
+  double inner = 0.4, outer = 0.5;       ///< radians from the middle, 0 <= inner <= outer <= pi
+};
+/// Power of a spot over its intensity in the middle, exactly: the falloff is a cubic of the cosine
+/// with mean 1/2, so 2 pi (1 - (cos inner + cos outer) / 2), here without cancellation.
+inline double spot_solid_angle(const SpotLight& spot) {
+  const double i = std::sin(0.5 * spot.inner), o = std::sin(0.5 * spot.outer);
+  return 2.0 * 3.14159265358979323846 * (i * i + o * o);
+}
+
 struct DirectionalLight {
   glm::dvec3 direction{0.0, -1.0, 0.0};  ///< unit, the way light travels
   Rgb irradiance{1.0};                   ///< W/m^2 on a plane facing the light
@@ -105,7 +127,7 @@ struct DirectionalLight {
 struct ConstantEnvironment {
   Rgb radiance{1.0};  ///< the same from all directions
 };
-using Light = std::variant<PointLight, DirectionalLight, ConstantEnvironment>;
+using Light = std::variant<PointLight, SpotLight, DirectionalLight, ConstantEnvironment>;
 
 enum class FovAxis { x, y, smaller, larger };
 
@@ -141,9 +163,14 @@ struct Scene {
   std::vector<std::string> files;     ///< every file read, for the identity hash
 };
 
-/// Whether the shape's material looks at texture coordinates.
+/// Whether the material, or a part of it, looks at texture coordinates.
+inline bool textured(const Material& material) {
+  for (const Material& part : material.parts)
+    if (textured(part)) return true;
+  return material.texture.has_value();
+}
 inline bool textured(const Scene& scene, const Shape& shape) {
-  return scene.materials[static_cast<std::size_t>(shape.material)].texture.has_value();
+  return textured(scene.materials[static_cast<std::size_t>(shape.material)]);
 }
 
 }  // namespace pellucid

@@ -152,6 +152,18 @@ std::vector<ObjectSpec> material_specs() {
   };
   return {
       {"material/diffuse", "Lambert", {type_field, reflectance, texture}},
+      {"material/oren-nayar",
+       "rough diffuse, energy-preserving (EON)",
+       {type_field,
+        reflectance,
+        {"roughness", T::number, "0.5", unit, "0: Lambert; 1: like dust, clay or the moon"},
+        texture}},
+      {"material/plastic", "diffuse base under a dielectric coat, smooth or rough (GGX)",
+       join({type_field,
+             reflectance,
+             {"ior", T::number, "1.5", {1, 3}, "index of the coat"},
+             texture},
+            width)},
       {"material/mirror",
        "perfect mirror",
        {type_field, {"reflectance", T::color, "1", unit, "share of light sent back"}, texture}},
@@ -159,6 +171,9 @@ std::vector<ObjectSpec> material_specs() {
        join({type_field,
              {"ior", T::number, "1.5", {0.1, 10}, "index of the inside over the outside"}},
             width)},
+      {"material/thin-dielectric",
+       "a pane of smooth glass without thickness",
+       {type_field, {"ior", T::number, "1.5", {0.1, 10}, "index of the glass over its surround"}}},
       {"material/conductor", "metal, smooth or rough (GGX)",
        join({type_field,
              {"metal", T::choice, optional, any, "a measured metal", metal_names()},
@@ -177,6 +192,29 @@ std::vector<ObjectSpec> material_specs() {
            {"texture", T::object, optional, any, "image that multiplies the diffuse part"},
            {"specular", T::color, "0.2", unit, "share of the glossy part at normal incidence"},
            {"exponent", T::number, "50", {0, 1e6}, "sharpness of the glossy part"},
+       }},
+  };
+}
+
+/// Materials made of others.
+std::vector<ObjectSpec> blend_specs() {
+  return {
+      {"material/mix",
+       "weighted sum of two materials",
+       {
+           type_field,
+           {"materials", T::array, required, any, "two names from \"materials\""},
+           {"amount", T::number, "0.5", unit, "weight of the second; the first has the rest"},
+       }},
+      {"material/principled",
+       "metal, plastic and glass blended by weights",
+       {
+           type_field,
+           {"baseColor", T::color, "0.5", unit, "of the plastic's base and of the metal"},
+           {"metallic", T::number, "0", unit, "weight of the metal"},
+           {"transmission", T::number, "0", unit, "weight of glass in what is no metal"},
+           {"roughness", T::number, "0.5", unit, "of all of them; alpha = roughness^2"},
+           {"ior", T::number, "1.5", {1, 3}, "of coat and glass"},
        }},
   };
 }
@@ -252,6 +290,18 @@ std::vector<ObjectSpec> light_specs() {
            {"intensity", T::color, optional, light, "W/sr"},
            {"power", T::color, optional, light, "W, instead of intensity"},
        }},
+      {"light/spot",
+       "a point light through a cone",
+       {
+           type_field,
+           {"position", T::vector, required, coordinate, "where it stands"},
+           {"target", T::vector, optional, coordinate, "a point in the middle of the cone"},
+           {"direction", T::vector, optional, coordinate, "the way light travels there, instead"},
+           {"intensity", T::color, optional, light, "W/sr in the middle"},
+           {"power", T::color, optional, light, "W in all, instead of intensity"},
+           {"angle", T::number, "60", {0.01, 360}, "full angle of the cone in degrees"},
+           {"falloff", T::number, "0.2", unit, "share of the angle over which light fades out"},
+       }},
       {"light/directional",
        "parallel light from infinity",
        {
@@ -273,7 +323,8 @@ std::vector<ObjectSpec> light_specs() {
 const std::vector<ObjectSpec>& object_specs() {
   static const std::vector<ObjectSpec> specs = [] {
     std::vector<ObjectSpec> all = scene_specs();
-    for (auto* part : {&part_specs, &material_specs, &solid_specs, &generated_specs, &light_specs})
+    for (auto* part :
+         {&part_specs, &material_specs, &blend_specs, &solid_specs, &generated_specs, &light_specs})
       for (ObjectSpec& spec : (*part)()) all.push_back(std::move(spec));
     return all;
   }();

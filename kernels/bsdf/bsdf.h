@@ -4,18 +4,24 @@
 #define PELLUCID_BSDF_BSDF_H
 
 #include "bsdf/diffuse.h"
+#include "bsdf/oren_nayar.h"
 #include "bsdf/phong.h"
+#include "bsdf/plastic.h"
 #include "bsdf/rough_conductor.h"
 #include "bsdf/rough_dielectric.h"
 #include "bsdf/specular.h"
 
 /// The material scatters into single directions only: no NEE, no connection.
 INLINE int bsdf_is_delta(Material m) {
-  return m.kind == MATERIAL_MIRROR || m.kind == MATERIAL_CONDUCTOR || m.kind == MATERIAL_DIELECTRIC;
+  return (m.lobes & LOBE_SPREAD) == 0u;
+}
+/// Some of the light goes into single directions, beside which there may be others.
+INLINE int bsdf_has_delta(Material m) {
+  return (m.lobes & LOBE_DELTA) != 0u;
 }
 /// Light passes through: sides are told apart by the geometric normal.
 INLINE int bsdf_is_transmissive(Material m) {
-  return m.kind == MATERIAL_DIELECTRIC || m.kind == MATERIAL_ROUGH_DIELECTRIC;
+  return (m.lobes & LOBE_TRANSMIT) != 0u;
 }
 
 /// f and density of the non-delta part for local directions (see bsdf/lobe.h).
@@ -26,9 +32,21 @@ INLINE BsdfEval bsdf_eval(Material m, BsdfContext c, real3 wi) {
     case MATERIAL_DIFFUSE:
       return diffuse_eval(m, wi);
 #endif
+#if FEAT_OREN_NAYAR
+    case MATERIAL_OREN_NAYAR:
+      return oren_nayar_eval(m, c.wo, wi);
+#endif
 #if FEAT_PHONG
     case MATERIAL_PHONG:
       return phong_eval(m, c.wo, wi);
+#endif
+#if FEAT_PLASTIC
+    case MATERIAL_PLASTIC:
+      return plastic_eval(m, c.wo, wi);
+#endif
+#if FEAT_ROUGH_PLASTIC
+    case MATERIAL_ROUGH_PLASTIC:
+      return rough_plastic_eval(m, c.wo, wi);
 #endif
 #if FEAT_ROUGH_CONDUCTOR
     case MATERIAL_ROUGH_CONDUCTOR:
@@ -51,9 +69,21 @@ INLINE BsdfSample bsdf_sample(Material m, BsdfContext c, real lobe, real u, real
     case MATERIAL_DIFFUSE:
       return diffuse_sample(m, u, v);
 #endif
+#if FEAT_OREN_NAYAR
+    case MATERIAL_OREN_NAYAR:
+      return oren_nayar_sample(m, c.wo, u, v);
+#endif
 #if FEAT_PHONG
     case MATERIAL_PHONG:
       return phong_sample(m, c.wo, lobe, u, v);
+#endif
+#if FEAT_PLASTIC
+    case MATERIAL_PLASTIC:
+      return plastic_sample(m, c.wo, lobe, u, v);
+#endif
+#if FEAT_ROUGH_PLASTIC
+    case MATERIAL_ROUGH_PLASTIC:
+      return rough_plastic_sample(m, c.wo, lobe, u, v);
 #endif
 #if FEAT_MIRROR
     case MATERIAL_MIRROR:
@@ -74,6 +104,10 @@ INLINE BsdfSample bsdf_sample(Material m, BsdfContext c, real lobe, real u, real
 #if FEAT_ROUGH_DIELECTRIC
     case MATERIAL_ROUGH_DIELECTRIC:
       return rough_dielectric_sample(m, c, lobe, u, v);
+#endif
+#if FEAT_THIN_DIELECTRIC
+    case MATERIAL_THIN_DIELECTRIC:
+      return thin_dielectric_sample(m, c.wo, lobe);
 #endif
     default:
       return bsdf_sample_none();

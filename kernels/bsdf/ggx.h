@@ -32,4 +32,23 @@ INLINE real3 ggx_sample_visible(real3 wo, real alpha, real u, real v) {
   return normalize3(REAL3(alpha * n.x, alpha * n.y, r_max(n.z, (real)FACET_COS_MIN)));
 }
 
+/// Reflection at facets, without their Fresnel reflectance.
+typedef struct GgxReflection {
+  real f;      // f(wo, wi) over that reflectance [1/sr]
+  real pdf_w;  // density of wo mirrored about a visible normal [1/sr]
+  real cos_h;  // cosine at which the facet is met
+} GgxReflection;
+
+/// Of two directions with z > 0 [Walter07 eq. 20; Heitz14].
+INLINE GgxReflection ggx_reflection(real3 wo, real3 wi, real alpha) {
+  GgxReflection r;
+  real3 h = normalize3(wo + wi);
+  real vo = ggx_v(wo, alpha), vi = ggx_v(wi, alpha);
+  real half_d = REAL(0.5) * ggx_d(h, alpha);
+  r.pdf_w = half_d / (wo.z + vo);
+  r.f = half_d / (vo * wi.z + vi * wo.z);
+  r.cos_h = r_min(dot3(wo, h), REAL(1.0));
+  return r;
+}
+
 #endif

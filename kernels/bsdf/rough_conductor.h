@@ -8,13 +8,9 @@
 INLINE BsdfEval rough_conductor_eval(Material m, real3 wo, real3 wi) {
   BsdfEval e = bsdf_eval_none();
   if (wi.z <= REAL(0.0)) return e;
-  real alpha = (real)m.alpha;
-  real3 h = normalize3(wo + wi);
-  real vo = ggx_v(wo, alpha), vi = ggx_v(wi, alpha);
-  real half_d = REAL(0.5) * ggx_d(h, alpha);
-  e.pdf_w = half_d / (wo.z + vo);
-  e.f = fresnel_conductor(r_min(dot3(wo, h), REAL(1.0)), load3(m.eta_specular), load3(m.k)) *
-        (half_d / (vo * wi.z + vi * wo.z));
+  GgxReflection r = ggx_reflection(wo, wi, (real)m.alpha);
+  e.pdf_w = r.pdf_w;
+  e.f = fresnel_conductor(r.cos_h, load3(m.eta_specular), load3(m.k)) * r.f;
   return e;
 }
 

@@ -1,4 +1,5 @@
-// The delta lobes: perfect mirror, smooth metal, smooth glass. Nothing to evaluate, only to sample.
+// The delta lobes: perfect mirror, smooth metal, smooth glass, thin panes. Nothing to evaluate,
+// only to sample.
 #ifndef PELLUCID_BSDF_SPECULAR_H
 #define PELLUCID_BSDF_SPECULAR_H
 
@@ -28,6 +29,19 @@ INLINE BsdfSample dielectric_sample(BsdfContext c, real lobe) {
     real scale = c.importance ? REAL(1.0) : inv * inv;
     s.weight = REAL3(scale, scale, scale);
   }
+  return s;
+}
+
+/// A pane of glass without thickness. All echoes between its faces together: with r at one face,
+/// r + (1-r)^2 r (1 + r^2 + ...) = 2 r / (1 + r) goes back, the rest straight on; the index scales
+/// radiance up at one face and down at the other.
+INLINE BsdfSample thin_dielectric_sample(Material m, real3 wo, real lobe) {
+  BsdfSample s = bsdf_sample_none();
+  s.delta = 1;
+  real cos_t;
+  real face = fresnel_dielectric(wo.z, (real)m.ior, &cos_t);
+  s.wi = lobe < REAL(2.0) * face / (REAL(1.0) + face) ? REAL3(-wo.x, -wo.y, wo.z) : -wo;
+  s.weight = REAL3(1.0f, 1.0f, 1.0f);
   return s;
 }
 

@@ -14,16 +14,22 @@
   X(FEAT_TEXTURE, "image textures")                                              \
   X(FEAT_ONE_SIDED, "opaque surfaces that are black from behind")                \
   X(FEAT_DIFFUSE, "Lambertian reflection")                                       \
+  X(FEAT_OREN_NAYAR, "rough diffuse reflection")                                 \
   X(FEAT_PHONG, "modified Phong reflection")                                     \
+  X(FEAT_PLASTIC, "diffuse bases under a smooth coat")                           \
+  X(FEAT_ROUGH_PLASTIC, "diffuse bases under a GGX coat")                        \
   X(FEAT_MIRROR, "perfect mirrors")                                              \
   X(FEAT_CONDUCTOR, "smooth metals")                                             \
   X(FEAT_ROUGH_CONDUCTOR, "GGX metals")                                          \
   X(FEAT_DIELECTRIC, "smooth glass")                                             \
   X(FEAT_ROUGH_DIELECTRIC, "GGX glass")                                          \
+  X(FEAT_THIN_DIELECTRIC, "panes of glass without thickness")                    \
+  X(FEAT_MIX, "mixes of materials")                                              \
   X(FEAT_LIGHT_TRIANGLE, "emitting triangles")                                   \
   X(FEAT_LIGHT_SPHERE, "emitting spheres")                                       \
   X(FEAT_LIGHT_DISK, "emitting disks")                                           \
   X(FEAT_LIGHT_POINT, "point lights")                                            \
+  X(FEAT_LIGHT_SPOT, "spot lights")                                              \
   X(FEAT_LIGHT_DIRECTIONAL, "directional lights")                                \
   X(FEAT_LIGHT_ENVIRONMENT, "a constant environment")                            \
   X(INTG_NEE, "next event estimation: a light sample at every non-delta vertex") \

@@ -74,21 +74,37 @@ LAYOUT_CHECK(Shape, 16);
 #define MATERIAL_ROUGH_CONDUCTOR 4u
 #define MATERIAL_DIELECTRIC 5u  // smooth: delta
 #define MATERIAL_ROUGH_DIELECTRIC 6u
+#define MATERIAL_OREN_NAYAR 7u
+#define MATERIAL_PLASTIC 8u  // smooth coat: a delta lobe over a diffuse one
+#define MATERIAL_ROUGH_PLASTIC 9u
+#define MATERIAL_THIN_DIELECTRIC 10u  // delta
+#define MATERIAL_MIX 11u              // the sum of its parts
+
+// What a material does with light; a mix does whatever one of its parts does.
+#define LOBE_DELTA 1u     // single directions, which only sampling finds
+#define LOBE_SPREAD 2u    // directions with a density: NEE and connections reach them
+#define LOBE_TRANSMIT 4u  // light passes through
 /// Written by pack; colours linear Rec.709.
 typedef struct Material {
   uint kind;       // MATERIAL_*
-  float alpha;     // GGX width, >= ALPHA_DELTA for rough kinds
-  float ior;       // dielectric: index inside over outside
+  float alpha;     // GGX width, >= ALPHA_DELTA for rough kinds; Oren-Nayar: roughness
+  float ior;       // dielectric: index inside over outside; plastic: index of the coat
   float survive;   // roulette: probability to go on after scattering here, local and so reversible,
                    // (0,1]
-  F4 reflectance;  // diffuse, mirror, Phong diffuse part; w: Phong: probability of the diffuse lobe
-  F4 eta_specular;  // conductor eta; Phong specular strength, w: Phong exponent
+  F4 reflectance;  // diffuse, Oren-Nayar, mirror, plastic base, Phong diffuse part; w: Phong:
+                   // probability of the diffuse lobe
+  F4 eta_specular;  // conductor eta; Phong specular strength, w: Phong exponent; plastic x: share
+                    // of diffuse light inside that the coat throws back
   F4 k;             // conductor k
-  uint texture;     // multiplies reflectance on SHAPE_TEXTURED shapes: index into textures, or NONE
+  uint lobes;       // LOBE_*
+  float weight;     // of a part: its share of the mix, and the probability to be sampled; else 1
+  uint first_part;  // mix: its parts, none of them a mix, stand together
+  uint part_count;
+  uint texture;  // multiplies reflectance on SHAPE_TEXTURED shapes: index into textures, or NONE
   float untextured;  // albedo beside reflectance (Phong's glossy part): survives dark texels
   uint pad0, pad1;
 } Material;
-LAYOUT_CHECK(Material, 80);
+LAYOUT_CHECK(Material, 96);
 
 // Texture.mode: how to go on outside [0, 1], and whether to filter.
 #define TEXTURE_REPEAT 0u
@@ -111,6 +127,7 @@ LAYOUT_CHECK(Texture, 32);
 #define LIGHT_POINT 3u
 #define LIGHT_DIRECTIONAL 4u
 #define LIGHT_ENVIRONMENT 5u
+#define LIGHT_SPOT 6u
 /// One light; an emitting mesh is one light per triangle. Written by pack.
 typedef struct Light {
   uint kind;        // LIGHT_*
@@ -118,9 +135,11 @@ typedef struct Light {
   float prob_pick;  // probability of this light among all; the same in every method
   uint alias;       // alias table: the light to take instead of this slot ...
   F4 value;     // radiance [W/(m^2 sr)], intensity [W/sr] or irradiance [W/m^2]; w: alias threshold
-  F4 position;  // point: position; directional: unit direction in which light travels
+  F4 position;  // point, spot: position; directional: unit direction in which light travels;
+                // w: spot: 1 - cos of half the angle within which intensity is full
+  F4 axis;      // spot: unit direction of its middle; w: 1 - cos of half its whole angle
 } Light;
-LAYOUT_CHECK(Light, 48);
+LAYOUT_CHECK(Light, 64);
 
 // ---- whole scene and launch
 // -----------------------------------------------------------------------

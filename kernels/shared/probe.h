@@ -11,8 +11,8 @@
   X(Quadric, normal) X(Quadric, tangent) X(Quadric, kind) X(Quadric, shape)               \
   X(Shape, first_light)                                                                   \
   X(Material, survive) X(Material, reflectance) X(Material, eta_specular) X(Material, k)  \
-  X(Material, texture) X(Texture, mode) X(Texture, scale_offset)                          \
-  X(Light, alias) X(Light, value) X(Light, position)                                      \
+  X(Material, part_count) X(Material, texture) X(Texture, mode) X(Texture, scale_offset)  \
+  X(Light, alias) X(Light, value) X(Light, position) X(Light, axis)                       \
   X(SceneInfo, center_radius) X(SceneInfo, root) X(SceneInfo, environment)                \
   X(Camera, corner) X(Camera, dx) X(Camera, dy) X(Camera, forward)                        \
   X(Launch, tile_width) X(Launch, max_depth) X(Launch, splat_scale) X(Launch, film_lsb)                           \

@@ -60,7 +60,7 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
   LightSample light = light_sample(scene, v->surface.p, rng_words(rng, DIM_LIGHT(bounce)));
   if (is_black(light.radiance)) return;
   real cos_wi;
-  BsdfEval e = vertex_eval(v, light.wi, &cos_wi);
+  BsdfEval e = vertex_eval(scene, v, light.wi, &cos_wi);
   if (is_black(e.f)) return;
   Ray shadow;
   shadow.o = spawn_origin(v->surface.p, v->surface.ng, v->surface.offset, light.wi);
@@ -88,7 +88,8 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
 
 /// Scatters at the vertex: roulette by the material's own survival probability (local, so that a
 /// walk from the other end knows it too), then a direction. 0 ends the walk.
-INLINE int walk_scatter(Rng rng, uint bounce, PRIVATE const Vertex* v, PRIVATE Walk* walk) {
+INLINE int walk_scatter(PRIVATE const SceneData* scene, Rng rng, uint bounce,
+                        PRIVATE const Vertex* v, PRIVATE Walk* walk) {
   Random4 u = rng4(rng, DIM_BSDF(bounce));
 #if INTG_UNIFORM
   real survive = (real)REFERENCE_SURVIVE;
@@ -97,9 +98,9 @@ INLINE int walk_scatter(Rng rng, uint bounce, PRIVATE const Vertex* v, PRIVATE W
 #endif
   if (u.w >= survive) return 0;
 #if INTG_UNIFORM
-  BsdfSample s = vertex_sample_uniform(v, u.x, u.y, u.z);
+  BsdfSample s = vertex_sample_uniform(scene, v, u.x, u.y, u.z);
 #else
-  BsdfSample s = vertex_sample(v, u.x, u.y, u.z);
+  BsdfSample s = vertex_sample(scene, v, u.x, u.y, u.z);
 #endif
   if (is_black(s.weight)) return 0;
   walk->beta *= s.weight * (REAL(1.0) / survive);
@@ -138,7 +139,7 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
     if (v.black) break;
     uint bounce = depth - 1u;
     if (!bsdf_is_delta(v.material)) walk_nee(scene, launch, rng, bounce, &v, &walk);
-    if (!walk_scatter(rng, bounce, &v, &walk)) break;
+    if (!walk_scatter(scene, rng, bounce, &v, &walk)) break;
   }
   *rays = walk.rays;
   return walk.radiance;

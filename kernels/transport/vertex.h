@@ -3,10 +3,9 @@
 #ifndef PELLUCID_TRANSPORT_VERTEX_H
 #define PELLUCID_TRANSPORT_VERTEX_H
 
-#include "bsdf/bsdf.h"
 #include "core/frame.h"
 #include "geom/surface.h"
-#include "geom/texture.h"
+#include "transport/material.h"
 
 /// A vertex of a walk, met from direction wo (unit, pointing to where the walk came from).
 typedef struct Vertex {
@@ -17,22 +16,6 @@ typedef struct Vertex {
   real side;            // +1: wo is in front of the geometric normal; -1: behind
   int black;            // one-sided surface met from behind, or wo in a tangent plane
 } Vertex;
-
-#if FEAT_TEXTURE
-/// The base colour times the texel. Roulette goes with the albedo of this very point, so that walks
-/// from both ends agree; rounding it up keeps a white texel without effect: each of its three
-/// roundings, and that of m->survive, is at most one unit.
-INLINE void apply_texture(PRIVATE const SceneData* scene, PRIVATE const Surface* s,
-                          PRIVATE Material* m) {
-  if (!(s->flags & SHAPE_TEXTURED) || m->texture == NONE) return;
-  real3 colour = load3(m->reflectance) * texture_at(scene, m->texture, s->u, s->v);
-  m->reflectance.x = (float)colour.x;
-  m->reflectance.y = (float)colour.y;
-  m->reflectance.z = (float)colour.z;
-  real albedo = (max3(colour) + (real)m->untextured) * (real)(1.0f + 8.0f * UNIT_ROUNDOFF);
-  m->survive = (float)r_min((real)m->survive, albedo);
-}
-#endif
 
 /// ns is flipped to wo independently of ng. A pair (wo, wi) then scatters the same way seen from
 /// either end: both normals only have to agree on reflection or transmission.
@@ -49,8 +32,7 @@ INLINE Vertex vertex_at(PRIVATE const SceneData* scene, Surface surface, real3 w
   v.frame = frame_from_normal(cos_s < REAL(0.0) ? -surface.ns : surface.ns);
   v.context.wo = to_local(v.frame, wo);
   v.context.importance = importance;
-  real ior = (real)v.material.ior;
-  v.context.eta = v.side > REAL(0.0) ? ior : REAL(1.0) / ior;
+  v.context.eta = material_eta(v.material, v.side);
   // A broken normal or direction ends the walk, but not in silence.
   int broken = !is_finite(cos_g + cos_s);
   if (broken) diag_count(scene, DIAG_nonfinite_vertex);
@@ -67,16 +49,18 @@ INLINE int vertex_sides_agree(PRIVATE const Vertex* v, real3 wi, real3 wi_local)
 }
 
 /// f and density for a world direction; 0 where the sides disagree.
-INLINE BsdfEval vertex_eval(PRIVATE const Vertex* v, real3 wi, PRIVATE real* cos_wi) {
+INLINE BsdfEval vertex_eval(PRIVATE const SceneData* scene, PRIVATE const Vertex* v, real3 wi,
+                            PRIVATE real* cos_wi) {
   real3 wi_local = to_local(v->frame, wi);
   *cos_wi = r_abs(wi_local.z);
   if (!vertex_sides_agree(v, wi, wi_local)) return bsdf_eval_none();
-  return bsdf_eval(v->material, v->context, wi_local);
+  return material_eval(scene, v->material, v->context, &v->surface, v->side, wi_local);
 }
 
 /// Draws a world direction by the BSDF. weight = 0 ends the walk.
-INLINE BsdfSample vertex_sample(PRIVATE const Vertex* v, real lobe, real u1, real u2) {
-  BsdfSample s = bsdf_sample(v->material, v->context, lobe, u1, u2);
+INLINE BsdfSample vertex_sample(PRIVATE const SceneData* scene, PRIVATE const Vertex* v, real lobe,
+                                real u1, real u2) {
+  BsdfSample s = material_sample(scene, v->material, v->context, &v->surface, v->side, lobe, u1, u2);
   if (is_black(s.weight)) return s;
   real3 wi = to_world(v->frame, s.wi);
   if (!vertex_sides_agree(v, wi, s.wi)) return bsdf_sample_none();
@@ -85,17 +69,29 @@ INLINE BsdfSample vertex_sample(PRIVATE const Vertex* v, real lobe, real u1, rea
 }
 
 /// Draws a world direction uniformly over the hemisphere of wo, or over the sphere if light passes
-/// through; delta materials use their own sampling. For the `reference` method.
-INLINE BsdfSample vertex_sample_uniform(PRIVATE const Vertex* v, real lobe, real u1, real u2) {
-  if (bsdf_is_delta(v->material)) return vertex_sample(v, lobe, u1, u2);
+/// through. Delta lobes use their own sampling; beside others they take half of the walks, from
+/// which whatever else that sampling finds is left out. For the `reference` method.
+INLINE BsdfSample vertex_sample_uniform(PRIVATE const SceneData* scene, PRIVATE const Vertex* v,
+                                        real lobe, real u1, real u2) {
+  if (bsdf_is_delta(v->material)) return vertex_sample(scene, v, lobe, u1, u2);
+  real share = REAL(1.0);  // of the walks that are drawn uniformly
+  if (bsdf_has_delta(v->material)) {
+    share = REAL(0.5);
+    if (lobe >= share) {
+      BsdfSample own = vertex_sample(scene, v, (lobe - share) / (REAL(1.0) - share), u1, u2);
+      if (!own.delta) return bsdf_sample_none();
+      own.weight = own.weight * (REAL(1.0) / (REAL(1.0) - share));
+      return own;
+    }
+  }
   int whole = bsdf_is_transmissive(v->material);
   real3 wi = whole ? warp_sphere(u1, u2)
                    : to_world(frame_from_normal(v->surface.ng * v->side), warp_hemisphere(u1, u2));
   real cos_wi;
-  BsdfEval e = vertex_eval(v, wi, &cos_wi);
+  BsdfEval e = vertex_eval(scene, v, wi, &cos_wi);
   BsdfSample s = bsdf_sample_none();
   s.wi = normalize3(wi);
-  s.pdf_w = whole ? INV_FOUR_PI : INV_TWO_PI;
+  s.pdf_w = share * (whole ? INV_FOUR_PI : INV_TWO_PI);
   s.weight = e.f * (cos_wi / s.pdf_w);
   return s;
 }

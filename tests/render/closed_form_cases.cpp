@@ -1,6 +1,7 @@
 // Scenes, values and methods. A case is a name and a function that makes it.
 #include "closed_form_cases.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -153,6 +154,91 @@ Case glass_sheet(double alpha, bool behind) {
   return c;
 }
 
+Case oren_nayar_sheet(double r) {
+  Material m;
+  m.kind = MaterialKind::oren_nayar;
+  m.reflectance = {0.3, 0.6, 0.9};
+  m.roughness = r;
+  Rgb value;
+  for (int c = 0; c < 3; ++c) value[c] = oren_nayar_albedo(sheet_cosine, m.reflectance[c], r);
+  return sheet(m, value);
+}
+
+/// R + T base, and the facets' reflection instead of R for a rough coat.
+std::pair<Material, Rgb> plastic_and_albedo(double alpha) {
+  Material m;
+  m.kind = MaterialKind::plastic;
+  m.reflectance = {0.1, 0.5, 0.9};
+  m.alpha = alpha;
+  const double r = fresnel(sheet_cosine, 1, m.ior, 0);
+  const double coat = alpha > 0 ? ggx_reflected(sheet_cosine, alpha, 1, m.ior, 0) : r;
+  Rgb value;
+  for (int c = 0; c < 3; ++c) value[c] = coat + (1 - r) * plastic_base(m.reflectance[c], m.ior);
+  return {m, value};
+}
+
+Case plastic_sheet(double alpha) {
+  const auto [m, value] = plastic_and_albedo(alpha);
+  return sheet(m, value);
+}
+
+/// Rough glass and a mix of plastic and mirror, in a mix of their own.
+Case mix_sheet() {
+  auto [plastic, plastic_value] = plastic_and_albedo(0);
+  Material mirror, glass, inner, outer;
+  mirror.kind = MaterialKind::mirror;
+  mirror.reflectance = {0.8, 0.4, 0.6};
+  glass.kind = MaterialKind::dielectric;
+  glass.alpha = 0.4;
+  inner.kind = outer.kind = MaterialKind::mix;
+  plastic.weight = 0.75, mirror.weight = 0.25;
+  inner.parts = {plastic, mirror};
+  glass.weight = 0.3, inner.weight = 0.7;
+  outer.parts = {glass, inner};
+  const double through = ggx_reflected(sheet_cosine, glass.alpha, 1, glass.ior, 0) +
+                         ggx_transmitted(sheet_cosine, glass.alpha, 1, glass.ior);
+  return sheet(outer, 0.3 * through + 0.7 * (0.75 * plastic_value + 0.25 * mirror.reflectance));
+}
+
+/// CF9 by a sheet without thickness in the place of the pane.
+Case thin_slab(int degrees) {
+  Case c = shipped(degrees ? "slab-" + std::to_string(degrees) : "slab",
+                   pane_transmission(degrees, 1.5));
+  c.scene.materials.at(0).kind = MaterialKind::thin_dielectric;
+  shape_named(c.scene, "pane").geometry = Disk{{0, 0, 0}, {0, 0, 1}, 30.0};
+  return c;
+}
+
+/// A spot on the axis above a floor, seen `degrees` off its middle: rho I falloff cos^3 / (pi h^2),
+/// with the cubic of cosines as falloff.
+Case spot_on_floor(double degrees) {
+  Case c{"", scene_named("spot-floor"), {}, next_event, by_chance};
+  const auto& spot = std::get<SpotLight>(c.scene.lights.at(0));
+  const double cosine = std::cos(degrees * pi / 180), x = std::tan(degrees * pi / 180);
+  c.scene.camera.origin.x = x;
+  c.scene.camera.fov = 0.01;  // the falloff changes quickly over the floor
+  const double t = std::clamp(
+      (cosine - std::cos(spot.outer)) / (std::cos(spot.inner) - std::cos(spot.outer)), 0.0, 1.0);
+  const double e = spot.intensity.x * t * t * (3 - 2 * t) * std::pow(cosine, 3);
+  c.targets = {{grey(0.5 * e / pi), {}, degrees > 0 ? Methods{} : next_event}};
+  return c;
+}
+
+/// A spot in the middle of CF2's sphere, seen where it does not shine: what all its power Phi makes
+/// of interreflection, rho^2 Phi / ((1 - rho) 4 pi^2).
+Case spot_in_sphere() {
+  Case c = {"", scene_named("point-in-sphere"), {}, next_event, by_chance};
+  SpotLight spot;
+  spot.position = {0, 0, 0};
+  spot.direction = -c.scene.camera.forward;
+  spot.intensity = Rgb(8.0);
+  spot.inner = 0.3, spot.outer = 0.9;
+  c.scene.lights = {spot};
+  const double power = 8.0 * 2 * pi * (1 - 0.5 * (std::cos(0.3) + std::cos(0.9)));
+  c.targets = {{grey(0.25 * power / (0.5 * 4 * pi * pi)), {}, {}}};
+  return c;
+}
+
 /// CF3: lossless solids vanish.
 Case white_furnace(const std::string& kind, const Methods& constant) {
   return shipped("white-furnace-" + kind, 1, constant);
@@ -188,6 +274,15 @@ std::vector<std::pair<std::string, Maker>> table() {
       {"cf5_below", [] { return shipped("sphere-light", 1); }},
       {"cf5_aside", [] { return shipped("sphere-light-offset", 16 * 0.0447214); }},
       {"cf6_disc", disc_light},
+      {"cf6_disk_light", [] { return shipped("disk-light", 1); }},
+      {"spot_middle", [] { return spot_on_floor(0); }},
+      {"spot_falloff", [] { return spot_on_floor(25); }},
+      {"spot_power", spot_in_sphere},
+      {"cf17_oren_nayar", [] { return oren_nayar_sheet(0.4); }},
+      {"cf17_oren_nayar_roughest", [] { return oren_nayar_sheet(1); }},
+      {"cf17_plastic", [] { return plastic_sheet(0); }},
+      {"cf17_rough_plastic", [] { return plastic_sheet(0.4); }},
+      {"cf17_mix", mix_sheet},
       {"cf8_shell", [] { return shipped("shell", 1); }},
       {"cf13_sky", [] { return shipped("plane-sky", 1); }},
       {"cf13_half_sky", [] { return shipped("plane-half-sky", 1); }},
@@ -203,6 +298,8 @@ std::vector<std::pair<std::string, Maker>> table() {
       {"cf17_glass_behind", [] { return glass_sheet(0, true); }},
       {"cf17_rough_glass_front", [] { return glass_sheet(0.4, false); }},
       {"cf17_rough_glass_behind", [] { return glass_sheet(0.4, true); }}};
+  for (int degrees : {0, 45, 60, 80})
+    t.emplace_back("cf9_thin_" + std::to_string(degrees), [=] { return thin_slab(degrees); });
   for (int degrees : {0, 45, 60, 80})
     t.emplace_back("cf9_slab_" + std::to_string(degrees), [=] {
       const std::string name = degrees ? "slab-" + std::to_string(degrees) : "slab";

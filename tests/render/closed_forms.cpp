@@ -84,6 +84,23 @@ double ggx_transmitted(double cos_o, double alpha, double near, double far) {
   return integrate(integrand, 0, 1, 0, 2 * pi, quadrature_tolerance);
 }
 
+double oren_nayar_albedo(double cos_o, double rho, double r) {
+  const double a = 1 / (1 + (0.5 - 2 / (3 * pi)) * r);
+  const double theta = std::acos(cos_o), s = std::sin(theta);
+  const double g = s * (theta - s * cos_o) + 2.0 / 3 * (s / cos_o * (1 - s * s * s) - s);
+  const double single = a * (1 + r * g / pi);
+  const double mean = a * (1 + (2.0 / 3 - 28 / (15 * pi)) * r);
+  return rho * single + rho * rho * mean / (1 - rho * (1 - mean)) * (1 - single);
+}
+
+double plastic_base(double rho, double n) {
+  const auto reflected = [&](double c, double) { return 2 * c * fresnel(c, n, 1, 0); };
+  const double critical = std::sqrt(1 - 1 / (n * n));  // beyond it all is reflected
+  const double f =
+      critical * critical + integrate(reflected, critical, 1, 0, 1, quadrature_tolerance);
+  return rho * (1 - f) / (1 - rho * f);
+}
+
 double phong_albedo(double cos_o, double exponent) {
   const glm::dvec3 mirror = direction(cos_o, pi);
   const auto integrand = [&](double cos_i, double phi) {

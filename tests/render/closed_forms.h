@@ -25,6 +25,14 @@ double pane_transmission(double degrees, double n);
 double ggx_reflected(double cos_o, double alpha, double near, double far, double k);
 double ggx_transmitted(double cos_o, double alpha, double near, double far);
 
+/// Albedo of energy-preserving Oren-Nayar of roughness r seen at cosine `cos_o`, in closed form
+/// [Portsmouth24].
+double oren_nayar_albedo(double cos_o, double rho, double r);
+
+/// What the base of plastic sends back of light that has entered its coat of index n: the light
+/// inside comes back from the coat by the share F: rho (1 - F) / (1 - rho F).
+double plastic_base(double rho, double n);
+
 /// Albedo of the modified Phong lobe (n + 2) / (2 pi) cos^n seen at cosine `cos_o`.
 double phong_albedo(double cos_o, double exponent);
 

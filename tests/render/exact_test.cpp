@@ -28,7 +28,7 @@ Film film_of(const Scene& scene, const Build& build) {
   return session_render(scene, build, short_run).film;
 }
 
-/// All lengths times 2^k: rounding commutes with powers of two. Intensities of points go with the
+/// All lengths times 2^k: rounding commutes with powers of two. Intensities (W/sr) go with the
 /// square of a length; radiance and irradiance stay.
 Scene scaled(Scene scene, int k) {
   const double f = std::ldexp(1.0, k);
@@ -49,6 +49,9 @@ Scene scaled(Scene scene, int k) {
     if (PointLight* point = std::get_if<PointLight>(&light)) {
       point->position *= f;
       point->intensity *= f * f;
+    } else if (SpotLight* spot = std::get_if<SpotLight>(&light)) {
+      spot->position *= f;
+      spot->intensity *= f * f;
     }
   return scene;
 }

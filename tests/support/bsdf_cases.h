@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pack/pack.h"
+#include "support/test_scenes.h"
 
 namespace pellucid::test {
 
@@ -13,13 +14,22 @@ struct BsdfCase {
   std::string name;
   ::Material material{};
   glm::dvec3 wo{0.0, 0.0, 1.0};
-  double eta = 1.0;  ///< as in BsdfContext; 1 for opaque kinds
+  double eta = 1.0;                 ///< as in BsdfContext; 1 for opaque kinds
+  double side = 1.0;                ///< of wo; only mixes with glass in them ask
+  std::vector<::Material> parts{};  ///< mix: the buffer that its indices point into
+  double delta_albedo = 0.0;        ///< what goes into single directions, red channel
 };
 
 ::Material diffuse(const Rgb& reflectance);
 ::Material phong(const Rgb& diffuse, const Rgb& specular, double exponent);
 ::Material gold(double alpha);
 ::Material glass(double ior, double alpha);
+::Material oren_nayar(const Rgb& reflectance, double roughness);
+::Material plastic(const Rgb& reflectance, double ior, double alpha);
+::Material pane(double ior);
+
+/// Fresnel reflectance of glass from outside, written apart from the kernels.
+double fresnel_of(double cosine, double ior);
 
 /// Every kind with a density, several widths and indices, cos(wo) from 1 to 1e-3.
 std::vector<BsdfCase> density_cases();

@@ -1,17 +1,15 @@
 // Compiled with PELLUCID_REAL=double only.
 #include "support/double_twin.h"
 
-#include "support/twin.h"
+#include "support/twin_bsdf.h"
 
 namespace pellucid::test {
 
 using twin::to_dvec3;
 using twin::to_real3;
 
-ReferenceBsdf reference_bsdf(const ::Material& material, const glm::dvec3& wo, double eta,
-                             bool importance, const glm::dvec3& wi) {
-  const twin::BsdfContext context{to_real3(wo), eta, importance};
-  const twin::BsdfEval e = twin::bsdf_eval(material, context, to_real3(wi));
+ReferenceBsdf reference_bsdf(const BsdfCase& c, const glm::dvec3& wi) {
+  const twin::BsdfEval e = twin::evaluate(c, 0, to_real3(wi));
   return {to_dvec3(e.f), e.pdf_w};
 }
 

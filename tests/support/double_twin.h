@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "pack/pack.h"
+#include "support/bsdf_cases.h"
 
 namespace pellucid::test {
 
@@ -13,9 +14,8 @@ struct ReferenceBsdf {
   glm::dvec3 f{0.0};
   double pdf = 0.0;
 };
-/// bsdf_eval in double; local directions, eta as in BsdfContext.
-ReferenceBsdf reference_bsdf(const ::Material& material, const glm::dvec3& wo, double eta,
-                             bool importance, const glm::dvec3& wi);
+/// material_eval in double, as radiance; local directions.
+ReferenceBsdf reference_bsdf(const BsdfCase& c, const glm::dvec3& wi);
 
 struct ReferenceHit {
   double t = 0.0;

@@ -182,6 +182,10 @@ TEST(PackFeatures, OneFlagPerKindOfMaterial) {
   expect(MaterialKind::mirror, 0, 1.5, FEAT_MIRROR, MATERIAL_MIRROR);
   expect(MaterialKind::conductor, 0, 1.5, FEAT_CONDUCTOR, MATERIAL_CONDUCTOR);
   expect(MaterialKind::conductor, 0.1, 1.5, FEAT_ROUGH_CONDUCTOR, MATERIAL_ROUGH_CONDUCTOR);
+  expect(MaterialKind::oren_nayar, 0, 1.5, FEAT_OREN_NAYAR, MATERIAL_OREN_NAYAR);
+  expect(MaterialKind::plastic, 0, 1.5, FEAT_PLASTIC, MATERIAL_PLASTIC);
+  expect(MaterialKind::plastic, 0.1, 1.5, FEAT_ROUGH_PLASTIC, MATERIAL_ROUGH_PLASTIC);
+  expect(MaterialKind::thin_dielectric, 0, 1.5, FEAT_THIN_DIELECTRIC, MATERIAL_THIN_DIELECTRIC);
   expect(MaterialKind::dielectric, 0, 1.5, FEAT_DIELECTRIC, MATERIAL_DIELECTRIC);
   expect(MaterialKind::dielectric, 0.1, 1.5, FEAT_ROUGH_DIELECTRIC, MATERIAL_ROUGH_DIELECTRIC);
   // Both sides of the switches to a delta.
@@ -189,6 +193,47 @@ TEST(PackFeatures, OneFlagPerKindOfMaterial) {
   expect(MaterialKind::conductor, 1.01 * ALPHA_DELTA, 1.5, FEAT_ROUGH_CONDUCTOR,
          MATERIAL_ROUGH_CONDUCTOR);
   expect(MaterialKind::dielectric, 0.1, 1.0, FEAT_DIELECTRIC, MATERIAL_DIELECTRIC);
+}
+
+Material part(MaterialKind kind, double weight) {
+  Material m;
+  m.kind = kind;
+  m.weight = weight;
+  return m;
+}
+
+/// Parts stand after the scene's own materials, in order, mixes in mixes opened; what has no weight
+/// leaves neither code nor data.
+TEST(PackMaterials, MixesBecomeListsOfParts) {
+  Material inner = part(MaterialKind::mix, 0.75);
+  inner.parts = {part(MaterialKind::mirror, 0.5), part(MaterialKind::dielectric, 0.5)};
+  Material outer = part(MaterialKind::mix, 1);
+  outer.parts = {part(MaterialKind::diffuse, 0.25), inner};
+  Material one = outer;
+  one.parts[0].weight = 1, one.parts[1].weight = 0;
+  Scene scene;
+  scene.materials = {part(MaterialKind::phong, 1), outer, one};
+  const PackedScene s = pack_scene(scene, {8});
+  ASSERT_EQ(s.materials.size(), 6u);
+  EXPECT_EQ(s.materials[0].weight, 1.0f);
+  EXPECT_EQ(s.materials[1].kind, MATERIAL_MIX);
+  EXPECT_EQ(s.materials[1].first_part, 3u);
+  EXPECT_EQ(s.materials[1].part_count, 3u);
+  EXPECT_EQ(s.materials[1].lobes, LOBE_DELTA | LOBE_SPREAD | LOBE_TRANSMIT);
+  EXPECT_EQ(s.materials[2].kind, MATERIAL_DIFFUSE);
+  const uint kinds[] = {MATERIAL_DIFFUSE, MATERIAL_MIRROR, MATERIAL_DIELECTRIC};
+  const float weights[] = {0.25f, 0.375f, 0.375f}, survives[] = {0.5f, 0.5f, 1.0f};
+  float survive = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(s.materials[3 + i].kind, kinds[i]);
+    EXPECT_EQ(s.materials[3 + i].weight, weights[i]);
+    survive += weights[i] * survives[i];
+  }
+  EXPECT_EQ(s.materials[1].survive, survive);
+  EXPECT_EQ(s.features,
+            FeatureSet({FEAT_PHONG, FEAT_DIFFUSE, FEAT_MIRROR, FEAT_DIELECTRIC, FEAT_MIX}));
+  scene.materials = {one};
+  EXPECT_EQ(pack_scene(scene, {8}).features, FeatureSet({FEAT_DIFFUSE}));
 }
 
 TEST(PackFeatures, OneFlagPerKindOfShape) {
@@ -214,6 +259,11 @@ TEST(PackFeatures, GlassIsNeverOneSided) {
   shape.geometry = Sphere{};
   shape.sides = 1;
   EXPECT_EQ(features_of(shape, m), FeatureSet({FEAT_SPHERES, FEAT_DIELECTRIC}));
+  Material milk = part(MaterialKind::mix, 1);
+  milk.parts = {part(MaterialKind::diffuse, 0.5), part(MaterialKind::thin_dielectric, 0.5)};
+  EXPECT_FALSE(features_of(shape, milk).has(FEAT_ONE_SIDED));
+  milk.parts[1].kind = MaterialKind::plastic;
+  EXPECT_TRUE(features_of(shape, milk).has(FEAT_ONE_SIDED));
 }
 
 TEST(PackFeatures, RequestsOfTheUser) {

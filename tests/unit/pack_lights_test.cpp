@@ -96,25 +96,32 @@ TEST(PackLights, PowerOfEveryKind) {
       test::baked({{{0, 0, 9}, {2, 0, 9}, {2, 3, 9}, {0, 3, 9}}, {}, {{0, 1, 2}, {0, 2, 3}}});
   add_shape(scene, square).emission = Emission{Rgb(1.0), 1};
   scene.lights = {PointLight{{0, 0, 5}, Rgb(7.0)}, DirectionalLight{{0, 0, -1}, Rgb(0.1)},
-                  ConstantEnvironment{Rgb(0.01)}};
+                  ConstantEnvironment{Rgb(0.01)},
+                  SpotLight{{0, 0, 5}, {0, 0, -1}, Rgb(20.0), 0.3, 0.5}};
   const PackedScene s = pack_scene(scene, {8});
   const double r = s.info.center_radius.w;
-  const double power[] = {
-      pi * 3 * 4 * pi * 4, pi * 2 * 2 * pi * 0.25,    pi * 3, pi * 3, 4 * pi * 7,
-      pi * r * r * 0.1,    4 * pi * pi * r * r * 0.01};
-  const uint kinds[] = {LIGHT_SPHERE, LIGHT_DISK,        LIGHT_TRIANGLE,   LIGHT_TRIANGLE,
-                        LIGHT_POINT,  LIGHT_DIRECTIONAL, LIGHT_ENVIRONMENT};
+  const double power[] = {pi * 3 * 4 * pi * 4,
+                          pi * 2 * 2 * pi * 0.25,
+                          pi * 3,
+                          pi * 3,
+                          4 * pi * 7,
+                          pi * r * r * 0.1,
+                          4 * pi * pi * r * r * 0.01,
+                          2 * pi * (1 - 0.5 * (std::cos(0.3) + std::cos(0.5))) * 20};
+  const uint kinds[] = {LIGHT_SPHERE, LIGHT_DISK,        LIGHT_TRIANGLE,    LIGHT_TRIANGLE,
+                        LIGHT_POINT,  LIGHT_DIRECTIONAL, LIGHT_ENVIRONMENT, LIGHT_SPOT};
   double total = 0;
   for (double p : power) total += p;
-  ASSERT_EQ(s.info.light_count, 7u);
+  ASSERT_EQ(s.info.light_count, 8u);
   EXPECT_EQ(s.info.environment, 6u);
-  for (size_t i = 0; i < 7; ++i) {
+  for (size_t i = 0; i < 8; ++i) {
     EXPECT_EQ(s.lights[i].kind, kinds[i]);
     EXPECT_NEAR(s.lights[i].prob_pick, power[i] / total, 1e-6) << i;
   }
   expect_table_matches(s);
-  const FeatureSet lights{FEAT_LIGHT_TRIANGLE, FEAT_LIGHT_SPHERE,      FEAT_LIGHT_DISK,
-                          FEAT_LIGHT_POINT,    FEAT_LIGHT_DIRECTIONAL, FEAT_LIGHT_ENVIRONMENT};
+  const FeatureSet lights{FEAT_LIGHT_TRIANGLE,   FEAT_LIGHT_SPHERE, FEAT_LIGHT_DISK,
+                          FEAT_LIGHT_POINT,      FEAT_LIGHT_SPOT,   FEAT_LIGHT_DIRECTIONAL,
+                          FEAT_LIGHT_ENVIRONMENT};
   EXPECT_EQ(s.features,
             lights | FeatureSet({FEAT_TRIANGLES, FEAT_SPHERES, FEAT_DISKS, FEAT_DIFFUSE}));
   EXPECT_EQ(s.shapes[0].flags, SHAPE_EMIT_FRONT);

@@ -4,7 +4,7 @@
 #include "support/bsdf_cases.h"
 #include "support/double_twin.h"
 #include "support/test_scenes.h"
-#include "support/twin.h"
+#include "support/twin_bsdf.h"
 
 namespace {
 
@@ -21,13 +21,11 @@ TEST(TwinBsdf, DensityOfSampleIsDensityEvaluated) {
   for (const BsdfCase& c : density_cases()) {
     for (int importance : {0, 1}) {
       Random random(++seed);
-      const BsdfContext context{to_real3(c.wo), real(c.eta), importance};
       int beyond = 0;
       for (int i = 0; i < 10000; ++i) {
-        const BsdfSample s = bsdf_sample(c.material, context, real(random.unit24()),
-                                         real(random.unit24()), real(random.unit24()));
+        const BsdfSample s = draw(c, importance, random);
         if (s.pdf_w == 0) continue;
-        const BsdfEval e = bsdf_eval(c.material, context, s.wi);
+        const BsdfEval e = evaluate(c, importance, s.wi);
         const double error = relative(double(e.pdf_w), double(s.pdf_w));
         // 1e-4 is what MIS is asked for; in float the direction itself is only known to a few
         // roundoffs, which the lobe amplifies by its slope. Double has no such excuse.
@@ -60,33 +58,30 @@ TEST(TwinBsdf, Reciprocity) {
     const bool glassy = bsdf_is_transmissive(c.material);
     int compared = 0;
     for (int i = 0; i < 3000; ++i) {
-      const BsdfContext there{to_real3(c.wo), real(c.eta), 0};
-      const BsdfSample s = bsdf_sample(c.material, there, real(random.unit24()),
-                                       real(random.unit24()), real(random.unit24()));
+      const BsdfSample s = draw(c, 0, random);
       if (s.pdf_w == 0 || std::abs(s.wi.z) < real(0.02)) continue;
       const bool through = glassy && s.wi.z < 0;
-      BsdfContext back{s.wi, real(c.eta), 0};
+      BsdfCase back = c;
+      back.wo = to_dvec3(s.wi);
       real3 wo = to_real3(c.wo);
       if (through) {  // the frame turns over with the side, and the index with it
-        back.wo = REAL3(s.wi.x, s.wi.y, -s.wi.z);
+        back.wo.z = -back.wo.z;
         wo.z = -wo.z;
-        back.eta = real(1) / real(c.eta);
+        back.eta = 1 / c.eta;
+        back.side = -c.side;
       }
-      const double forth = double(bsdf_eval(c.material, there, s.wi).f.x);
-      const double radiance = double(bsdf_eval(c.material, back, wo).f.x);
+      const double forth = double(evaluate(c, 0, s.wi).f.x);
+      const double radiance = double(evaluate(back, 0, wo).f.x);
       const double eta2 = through ? c.eta * c.eta : 1.0;
-      BsdfContext importance = there;
-      importance.importance = 1;
-      const double adjoint = double(bsdf_eval(c.material, importance, s.wi).f.x);
+      const double adjoint = double(evaluate(c, 1, s.wi).f.x);
       ++compared;
-      const BsdfCase turned{"", c.material, to_dvec3(back.wo), double(back.eta)};
       const double tolerance = is_float ? 1e-4 + 2 * (half_vector_error(c, to_dvec3(s.wi)) +
-                                                      half_vector_error(turned, to_dvec3(wo)))
+                                                      half_vector_error(back, to_dvec3(wo)))
                                         : 1e-8;
       ASSERT_LT(relative(forth * eta2, radiance), tolerance) << c.name;
       ASSERT_LT(relative(adjoint, radiance), tolerance) << c.name;
     }
-    EXPECT_GT(compared, 500) << c.name;
+    EXPECT_GT(compared, 300) << c.name;  // smooth coats at grazing angles leave few
   }
 }
 
@@ -159,6 +154,14 @@ std::vector<std::pair<::Material, double>> hostile_materials() {
     all.emplace_back(phong({0, 0, 0}, {1, 1, 1}, n), 1.0);
   }
   all.emplace_back(phong({0, 0, 0}, {0, 0, 0}, 5), 1.0);
+  for (double rho : {0.0, 1.0}) {
+    for (double r : {0.0, 1e-30, 1e-3, 1.0})
+      all.emplace_back(oren_nayar(pellucid::Rgb(rho), r), 1.0);
+    for (double ior : {1.0, 1.0 + 1e-6, 1.5, 3.0})
+      for (double alpha : {0.0, 1e-3, 0.5, 1.0})
+        all.emplace_back(plastic(pellucid::Rgb(rho), ior, alpha), 1.0);
+  }
+  for (double ior : {0.1, 1.0, 1.5, 10.0}) all.emplace_back(pane(ior), 1.0);
   for (double alpha : {0.0, 1e-3, 0.5, 1.0}) {
     all.emplace_back(gold(alpha), 1.0);
     for (double ior : {1.0, 1.0 + 1.1e-4, 1.5, 1 / 1.5, 10.0, 0.1}) {

@@ -267,6 +267,41 @@ TEST(TwinLight, SkyGivesPi) {
   expect_irradiance("sky", sky, {0, 0, 0}, 0.5 * pi_d);
 }
 
+/// The mean of intensity over all directions is the power that the packer says, over 4 pi; in the
+/// cones it is what the angles say. Down to cones of a hundredth of a degree.
+TEST(TwinLight, SpotsSendTheirPower) {
+  for (double outer : {1e-4, 0.01, 0.5, 1.5, pi_d})
+    for (double softness : {0.0, 0.3, 1.0}) {
+      Scene scene = empty_scene();
+      pellucid::SpotLight spot;
+      spot.direction = glm::normalize(glm::dvec3(1, 2, -2));
+      spot.outer = outer;
+      spot.inner = outer * (1 - softness);
+      scene.lights = {spot};
+      const TwinScene twin(scene);
+      const ::Light& light = twin.packed.lights[0];
+      const Frame frame = frame_from_normal(to_real3(spot.direction));
+      const auto falloff = [&](double angle) {
+        const real3 local = REAL3(std::sin(angle) * 0.6, std::sin(angle) * 0.8, std::cos(angle));
+        return double(spot_falloff(light, normalize3(to_world(frame, local))));
+      };
+      constexpr int steps = 4000;  // midpoints of 1 - cos, where the falloff is a cubic
+      const double most = 2 * std::pow(std::sin(0.5 * outer), 2);
+      double sum = 0;
+      for (int i = 0; i < steps; ++i)
+        sum += falloff(2 * std::asin(std::sqrt(0.5 * most * (i + 0.5) / steps))) / steps;
+      // A hard edge may fall anywhere within a step, a direction of float 1e-7 beside its cone.
+      EXPECT_NEAR(2 * pi_d * most * sum / pellucid::spot_solid_angle(spot), 1.0,
+                  1e-3 + (is_float ? 1e-7 / outer : 0))
+          << outer << " " << softness;
+      if (softness > 0 && outer < pi_d) {
+        EXPECT_NEAR(falloff(0.99 * spot.inner), 1.0, 1e-6);
+        EXPECT_EQ(falloff(1.01 * outer), 0.0);
+        EXPECT_GT(falloff(0.99 * outer), 0.0);
+      }
+    }
+}
+
 TEST(TwinLight, DeltaLights) {
   Scene scene = empty_scene();
   scene.lights.push_back(pellucid::PointLight{{0, 3, 4}, Rgb(50.0)});
@@ -276,6 +311,12 @@ TEST(TwinLight, DeltaLights) {
   EXPECT_NEAR(double(point.radiance.x), 2.0, 1e-6);
   EXPECT_NEAR(double(point.wi.z), 0.8, 1e-6);
   EXPECT_EQ(double(point.pdf_w), 1.0);
+  scene.lights = {pellucid::SpotLight{{0, 3, 4}, {0, -0.6, -0.8}, Rgb(50.0), 0.1, 0.2}};
+  const LightSample spot = sample(TwinScene(scene), {0, 0, 0}, random);
+  EXPECT_TRUE(spot.delta && !spot.at_infinity);
+  EXPECT_NEAR(double(spot.radiance.x), 2.0, 1e-6);
+  EXPECT_NEAR(double(spot.wi.z), 0.8, 1e-6);
+  EXPECT_TRUE(is_black(sample(TwinScene(scene), {0, 9, 0}, random).radiance));
   scene.lights = {pellucid::DirectionalLight{{0, 0, -1}, Rgb(3.0)}};
   const LightSample sun = sample(TwinScene(scene), {0, 0, 0}, random);
   EXPECT_TRUE(sun.delta && sun.at_infinity);
