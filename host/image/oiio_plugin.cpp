@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -156,6 +157,15 @@ void linearise_colours(const OIIO::ImageSpec& spec, Image& image) {
       image.data[i] = srgb_to_linear(image.data[i]);
 }
 
+/// Whether a header may be believed; one changed byte can ask for terabytes. No compression of
+/// rendered pictures comes near the ratio, which leaves deflate's limit of 1032 far behind.
+bool plausible(const OIIO::ImageSpec& spec, std::uint64_t file_bytes) {
+  constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28, most_channels = 4096;
+  constexpr std::uint64_t most_ratio = 1 << 16;
+  return spec.image_pixels() <= most_pixels && std::uint64_t(spec.nchannels) <= most_channels &&
+         spec.image_bytes(true) <= file_bytes * most_ratio;
+}
+
 std::string read_file(const std::string& path, bool linearise, Image& image) {
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // stored values, not multiplied by alpha
@@ -165,6 +175,11 @@ std::string read_file(const std::string& path, bool linearise, Image& image) {
   if (spec.deep) return "deep images are not supported";
   if (spec.width <= 0 || spec.height <= 0 || spec.depth != 1 || spec.nchannels <= 0)
     return "not a flat picture with at least one pixel";
+
+  if (!plausible(spec, OIIO::Filesystem::file_size(path)))
+    return "its header asks for " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+           " pixels of " + std::to_string(spec.nchannels) +
+           " channels, which the file cannot hold; it is damaged";
 
   image.width = spec.width;
   image.height = spec.height;
@@ -178,7 +193,8 @@ std::string read_file(const std::string& path, bool linearise, Image& image) {
   }
   image.channels.assign(spec.channelnames.begin(), spec.channelnames.end());
   image.data.resize(spec.image_pixels() * std::size_t(spec.nchannels));
-  if (!file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, image.data.data()))
+  const bool read = file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, image.data.data());
+  if (!read || file->has_error())  // the reader of TIFF says so only by its error
     return reason_or(file->geterror(), "pixels cannot be read");
   for (const OIIO::ParamValue& p : spec.extra_attribs) get_attribute(p, image.metadata);
   if (linearise && is_srgb(spec)) linearise_colours(spec, image);

@@ -40,6 +40,9 @@ void convert_glossy(const tinyobj::material_t& mtl, Material& material,
   material.kind = MaterialKind::phong;
   material.specular = to_rgb(mtl.specular);
   material.exponent = std::min<double>(mtl.shininess, 1e6);
+  if (material.exponent != mtl.shininess)
+    warnings.push_back(fmt::format("MTL material \"{}\": Ns {:g} was brought down to 1e6", mtl.name,
+                                   mtl.shininess));
   const double most = largest(material.reflectance + material.specular);
   if (most > 1.0) {
     material.reflectance /= most;
@@ -61,6 +64,9 @@ MtlSurface convert_mtl(const tinyobj::material_t& mtl, std::vector<std::string>&
   if (is_glass(mtl)) {
     material.kind = MaterialKind::dielectric;
     material.ior = std::clamp<double>(mtl.ior, 0.1, 10.0);
+    if (material.ior != mtl.ior)
+      warnings.push_back(fmt::format("MTL material \"{}\": Ni {:g} was brought into 0.1 to 10",
+                                     mtl.name, mtl.ior));
     if (mtl.ior == 1.0f) material.ior = 1.5;  // 1 is what exporters write when they do not know
   } else if (mtl.illum == 3) {
     material.kind = MaterialKind::mirror;

@@ -15,10 +15,13 @@ struct ObjScan {
 };
 
 /// Checks every number, index and keyword of an OBJ text. Throws InputError with file:line.
-ObjScan scan_obj(const std::string& path, const std::string& text);
+/// Comments and lines of unknown keywords become blanks: tinyobjloader would read some of them,
+/// unchecked.
+ObjScan scan_obj(const std::string& path, std::string& text);
 
 /// Checks the numbers of an MTL text and collects the keywords that pellucid has no use for.
-void scan_mtl(const std::string& path, const std::string& text,
+/// Comments become blanks.
+void scan_mtl(const std::string& path, std::string& text,
               std::map<std::string, std::string>& not_supported);
 
 }  // namespace pellucid

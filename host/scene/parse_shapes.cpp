@@ -1,6 +1,8 @@
 // Shapes of the scene file.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 
@@ -66,10 +68,24 @@ double similarity_scale(const ObjectReader& reader, const Affine& transform, con
   return *scale;
 }
 
+/// What a transform makes of a center and a radius has to stay in range, as they are by themselves.
+void check_reach(const ObjectReader& reader, glm::dvec3 center, double radius) {
+  const double reach = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
+  if (!(reach <= largest_length && radius <= largest_length && radius >= 1.0 / largest_length))
+    fail(reader.place("transform"),
+         fmt::format(
+             "makes a center at {:g} {:g} {:g} and a radius of {:g}; coordinates reach {:g}, "
+             "lengths lie between {:g} and {:g}",
+             center.x, center.y, center.z, radius, largest_length, 1.0 / largest_length,
+             largest_length));
+}
+
 Sphere parse_sphere(const ObjectReader& reader, const Affine& transform) {
   const double scale = similarity_scale(
       reader, transform, "a \"displaced-sphere\" with amplitude 0, which is made of triangles");
-  return {transform.point(reader.vector("center")), scale * reader.number("radius")};
+  const Sphere sphere{transform.point(reader.vector("center")), scale * reader.number("radius")};
+  check_reach(reader, sphere.center, sphere.radius);
+  return sphere;
 }
 
 Disk parse_disk(const ObjectReader& reader, const ShapeParts& parts) {
@@ -78,8 +94,10 @@ Disk parse_disk(const ObjectReader& reader, const ShapeParts& parts) {
   const glm::dvec3 normal = reader.vector("normal");
   if (normal == glm::dvec3(0.0)) fail(reader.place("normal"), "a normal must not be zero");
   const glm::dvec3 world = parts.transform.normal(normal);
-  return {parts.transform.point(reader.vector("center")), parts.flip ? -world : world,
-          scale * reader.number("radius")};
+  const Disk disk{parts.transform.point(reader.vector("center")), parts.flip ? -world : world,
+                  scale * reader.number("radius")};
+  check_reach(reader, disk.center, disk.radius);
+  return disk;
 }
 
 RawMesh parse_rectangle(const ObjectReader& reader) {

@@ -76,6 +76,8 @@ void check_color(const JsonNode& node, const Range& range) {
 void check_text(const JsonNode& node, const Field& field) {
   expect_kind(node, Kind::string, "a text");
   if (node.text.empty()) fail(node, "must not be empty");
+  // Names of files and kernels would end there.
+  if (node.text.find('\0') != std::string::npos) fail(node, "must not hold a zero character");
   if (field.type != FieldType::choice) return;
   if (std::find(field.choices.begin(), field.choices.end(), node.text) == field.choices.end())
     fail(node, fmt::format("\"{}\" is not known here.{} Valid: {}", printable(node.text),

@@ -7,11 +7,12 @@
 
 namespace pellucid {
 
-/// The whole file as bytes, without a leading UTF-8 byte order mark. Throws InputError, which says
-/// what the file was to be (`role`, such as "scene file") and names near files in the same folder.
+/// The whole regular file as bytes, without a leading UTF-8 byte order mark. Throws InputError,
+/// which says what the file was to be (`role`, such as "scene file") and names near files in the
+/// same folder.
 std::string read_text_file(const std::string& path, const std::string& role, std::size_t max_bytes);
 
-/// `"a", "b" or "c"`.
+/// `"a", "b" or "c"`; of very many, the first ones.
 std::string list_choices(const std::vector<std::string>& choices);
 
 /// A piece of user text safe to print: control characters become '?', long text is cut.
