@@ -157,13 +157,17 @@ void linearise_colours(const OIIO::ImageSpec& spec, Image& image) {
       image.data[i] = srgb_to_linear(image.data[i]);
 }
 
-/// Whether a header may be believed; one changed byte can ask for terabytes. No compression of
-/// rendered pictures comes near the ratio, which leaves deflate's limit of 1032 far behind.
-bool plausible(const OIIO::ImageSpec& spec, std::uint64_t file_bytes) {
+/// Why a header cannot be believed, or "": one changed byte can ask for terabytes. No compression
+/// of rendered pictures comes near the ratio, which leaves deflate's limit of 1032 far behind.
+std::string doubt(const OIIO::ImageSpec& spec, const std::string& path) {
   constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28, most_channels = 4096;
   constexpr std::uint64_t most_ratio = 1 << 16;
-  return spec.image_pixels() <= most_pixels && std::uint64_t(spec.nchannels) <= most_channels &&
-         spec.image_bytes(true) <= file_bytes * most_ratio;
+  if (spec.image_pixels() <= most_pixels && std::uint64_t(spec.nchannels) <= most_channels &&
+      spec.image_bytes(true) <= OIIO::Filesystem::file_size(path) * most_ratio)
+    return "";
+  return "its header asks for " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+         " pixels of " + std::to_string(spec.nchannels) +
+         " channels, which the file cannot hold; it is damaged";
 }
 
 std::string read_file(const std::string& path, bool linearise, Image& image) {
@@ -176,10 +180,7 @@ std::string read_file(const std::string& path, bool linearise, Image& image) {
   if (spec.width <= 0 || spec.height <= 0 || spec.depth != 1 || spec.nchannels <= 0)
     return "not a flat picture with at least one pixel";
 
-  if (!plausible(spec, OIIO::Filesystem::file_size(path)))
-    return "its header asks for " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
-           " pixels of " + std::to_string(spec.nchannels) +
-           " channels, which the file cannot hold; it is damaged";
+  if (const std::string why = doubt(spec, path); !why.empty()) return why;
 
   image.width = spec.width;
   image.height = spec.height;
@@ -289,6 +290,7 @@ std::string read_word_file(const std::string& path, WordImage& words) {
     if (spec.channelformat(c) != OIIO::TypeUInt32)
       return "not a checkpoint: channel " + spec.channelnames[std::size_t(c)] +
              " holds no whole numbers";
+  if (const std::string why = doubt(spec, path); !why.empty()) return why;
   words.width = spec.width;
   words.height = spec.height;
   words.channels.assign(spec.channelnames.begin(), spec.channelnames.end());

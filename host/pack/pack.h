@@ -31,7 +31,7 @@ struct PackedScene {
   std::vector<::Light> lights;
   SceneInfo info{};
   ::Camera camera{};
-  FeatureSet features;  ///< what the scene needs
+  FeatureSet features;          ///< what the scene needs
   int brightness_exponent = 0;  ///< 2^it is at least the radiance of the brightest light
   int simd_width = 8;
   uint stack_bound = 0;  ///< traversal stack entries needed
