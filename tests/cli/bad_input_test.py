@@ -30,7 +30,8 @@ BASE = {
     "merge": ["gone.exr", "-o", "out.exr"],
 }
 # Odd, but right. All others of ODD are usage errors, except where a name is wanted.
-LEGAL = {"--seed": ["0"], "--time": ["0", "1e38"], "--fail-slower": ["0"]}
+LEGAL = {"--seed": ["0"], "--time": ["0", "1e38"], "--every": ["0", "1e38"],
+         "--fail-slower": ["0"]}
 NAMES = ("FILE", "DIR", "SPEC")
 
 
@@ -74,7 +75,7 @@ def test_options():
                 legal = value in LEGAL.get(option, ()) or (kind in NAMES and value != "")
                 codes = (0, 2, 3, 4, 5) if legal else (2,)
                 # Some messages name the short form.
-                parts = () if legal else ["-o" if option == "--output" else option[2:]]
+                parts = () if legal else ["-o" if option == "--output" else option.lstrip("-")]
                 # With "=", since a value that begins with "-" would be taken for an option.
                 jobs.append(([*base, f"{option}={value}"], codes, parts))
     with ThreadPoolExecutor(os.cpu_count()) as pool:
