@@ -9,7 +9,8 @@ if(PELLUCID_WERROR)
   target_compile_options(pellucid_options INTERFACE -Werror)
 endif()
 if(PELLUCID_SANITIZE)
-  target_compile_options(pellucid_options INTERFACE -fsanitize=${PELLUCID_SANITIZE}
-                                                    -fno-omit-frame-pointer)
+  # A report ends the program: tests must not pass over it.
+  target_compile_options(pellucid_options INTERFACE
+    -fsanitize=${PELLUCID_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(pellucid_options INTERFACE -fsanitize=${PELLUCID_SANITIZE})
 endif()

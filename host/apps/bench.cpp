@@ -87,14 +87,17 @@ std::string as_text(const nlohmann::json& d) {
   return text;
 }
 
-/// Cells slower than in the baseline by more than `allowed` (a fraction); empty: the gate holds.
+/// Cells slower than in the baseline by more than `allowed` (a fraction), or absent there; empty:
+/// the gate holds.
 std::vector<std::string> slower_cells(const nlohmann::json& now, const nlohmann::json& before,
                                       double allowed) {
   std::vector<std::string> slower;
+  std::size_t compared = 0;
   for (const auto& old_cell : before.at("rays"))
     for (const auto& cell : now.at("rays")) {
       if (cell["triangles"] != old_cell.at("triangles") || cell["kind"] != old_cell.at("kind"))
         continue;
+      ++compared;
       const double ratio =
           cell["mrays_per_s"].get<double>() / old_cell.at("mrays_per_s").get<double>();
       if (ratio < 1.0 - allowed)
@@ -102,13 +105,30 @@ std::vector<std::string> slower_cells(const nlohmann::json& now, const nlohmann:
                                      cell["kind"].get<std::string>(), cell["triangles"].get<int>(),
                                      100 * (1 - ratio)));
     }
+  if (compared != now.at("rays").size())
+    slower.push_back(fmt::format("{} of {} cells cannot be compared: it lacks them",
+                                 now.at("rays").size() - compared, now.at("rays").size()));
   return slower;
 }
 
+/// A baseline that a result can be compared with; checked before the bench takes its minutes.
 nlohmann::json read_baseline(const std::string& file) {
   const auto document = nlohmann::json::parse(read_text(file), nullptr, false);
-  if (document.is_discarded() || !document.is_object() || !document.contains("rays"))
-    throw InputError(file + ": not a result of 'pellucid bench --json'");
+  const auto fail = [&](const std::string& why) {
+    throw InputError(
+        fmt::format("{}: {}; make it with 'pellucid bench --json {}'", file, why, file));
+  };
+  if (document.is_discarded()) fail("not valid JSON");
+  if (!document.is_object() || !document.contains("rays") || !document["rays"].is_array() ||
+      document["rays"].empty())
+    fail("there is no list \"rays\"");
+  for (const nlohmann::json& cell : document["rays"]) {
+    const bool whole = cell.is_object() && cell.value("triangles", nlohmann::json()).is_number() &&
+                       cell.value("kind", nlohmann::json()).is_string() &&
+                       cell.value("mrays_per_s", nlohmann::json()).is_number();
+    if (!whole) fail("an entry of \"rays\" lacks \"triangles\", \"kind\" or \"mrays_per_s\"");
+    if (!(cell["mrays_per_s"].get<double>() > 0)) fail("\"mrays_per_s\" is not above 0");
+  }
   return document;
 }
 
@@ -116,10 +136,13 @@ ExitCode BenchCommand::run(const CommonOptions& common) const {
   if (only != "rays")
     throw UsageError("--only: there is no workload '" + only + "'; there is rays");
   const double allowed = parse_fraction("--fail-slower", fail_slower);
+  if (allowed < 0 || allowed >= 1)
+    throw UsageError("--fail-slower takes a share from 0% to below 100%, not '" + fail_slower +
+                     "'");
   const nlohmann::json before = baseline.empty() ? nlohmann::json() : read_baseline(baseline);
+  const Device target = Device::open(device);
   std::vector<Scene> scenes;
   for (const char* name : {"rays-1k", "rays-100k", "rays-1m"}) scenes.push_back(open_scene(name));
-  const Device target = Device::open(device);
   Progress progress("bench");
   RayBenchOptions options;
   options.repeats = repeats;
@@ -130,7 +153,7 @@ ExitCode BenchCommand::run(const CommonOptions& common) const {
   write_json(common.json, document);
   if (before.is_null()) return ExitCode::done;
   const std::vector<std::string> slower = slower_cells(document, before, allowed);
-  for (const std::string& cell : slower) log_error("{} than {}", cell, baseline);
+  for (const std::string& cell : slower) log_error("beside {}: {}", baseline, cell);
   return slower.empty() ? ExitCode::done : ExitCode::gate_failed;
 }
 

@@ -78,6 +78,7 @@ double parse_duration(std::string_view option, const std::string& text) {
     if (unit == 0) refuse(option, text, accepted);
     total += value * unit;
   } while (!rest.empty());
+  if (!std::isfinite(total)) refuse(option, text, accepted);
   return total;
 }
 

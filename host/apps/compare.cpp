@@ -7,6 +7,8 @@
 
 #include "apps/command.h"
 #include "apps/common.h"
+#include "apps/outputs.h"
+#include "base/files.h"
 #include "base/log.h"
 #include "base/text.h"
 #include "image/image.h"
@@ -119,6 +121,11 @@ nlohmann::json as_json(const Options& options, const ImageError& error,
 ExitCode run(const Options& options, const CommonOptions& common) {
   std::vector<Gate> gates;
   for (const std::string& text : options.gates) gates.push_back(parse_gate(text));
+
+  if (!options.diff.empty()) {  // before the work, not after it
+    check_picture_types({options.diff});
+    check_writable(options.diff);
+  }
 
   const Image image = read_linear(options.image);
   const Image reference = read_linear(options.reference);

@@ -5,6 +5,7 @@
 
 #include "apps/command.h"
 #include "apps/common.h"
+#include "apps/outputs.h"
 #include "apps/scene_input.h"
 #include "base/text.h"
 #include "image/image.h"
@@ -131,15 +132,6 @@ ExitCode scene_info(const std::string& file, const std::string& device,
   return ExitCode::done;
 }
 
-bool looks_like_image(const std::string& file) {
-  const size_t dot = file.rfind('.');
-  if (dot == std::string::npos) return false;
-  const std::string suffix = file.substr(dot + 1);
-  for (const char* known : {"exr", "png", "hdr", "pfm", "tif", "tiff", "jpg", "jpeg"})
-    if (suffix == known) return true;
-  return false;
-}
-
 }  // namespace
 
 CommandRun setup_info(CLI::App& app) {
@@ -154,8 +146,8 @@ CommandRun setup_info(CLI::App& app) {
       ->envname("PELLUCID_DEVICE");
   app.footer("Example: pellucid info cornell-box");
   return [options](const CommonOptions& common) {
-    return looks_like_image(options->file) ? image_info(options->file, common)
-                                           : scene_info(options->file, options->device, common);
+    return is_picture_name(options->file) ? image_info(options->file, common)
+                                          : scene_info(options->file, options->device, common);
   };
 }
 

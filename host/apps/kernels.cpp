@@ -22,11 +22,11 @@ struct KernelsCommand {
 
 ExitCode KernelsCommand::run(const CommonOptions& common) const {
   const Scene s = open_scene(scene);
-  const Device target = Device::open(device);
-  const PackedScene packed = pack_scene(s, {simd_width_for(target.info())});
   const Integrator& method = choose_integrator(integrator, s);
   PlanOptions options;
   options.extra_features = parse_feature_request(features);
+  const Device target = Device::open(device);
+  const PackedScene packed = pack_scene(s, {simd_width_for(target.info())});
   const Specialisation special = specialise(packed, method, target.info(), options);
   const std::string prelude = prelude_of(special), build_options = options_of(special);
   const KernelFiles files(kernel_dir);

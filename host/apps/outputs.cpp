@@ -46,6 +46,11 @@ void check_picture_types(const std::vector<std::string>& names) {
   }
 }
 
+bool is_picture_name(const std::string& name) {
+  const std::string suffix = suffix_of(name);
+  return contains(LINEAR_TYPES, suffix) || contains(DISPLAY_TYPES, suffix) || suffix == "pfm";
+}
+
 void write_pictures(const std::vector<std::string>& names, const Image& linear) {
   std::exception_ptr first;
   for (const std::string& name : names) {

@@ -11,6 +11,9 @@ namespace pellucid {
 /// Throws UsageError if a suffix names no type of picture that we write.
 void check_picture_types(const std::vector<std::string>& names);
 
+/// Whether the suffix is one of a picture, written by us or only read.
+bool is_picture_name(const std::string& name);
+
 /// Writes a linear image to every name, tone-mapped where the type holds display values. One that
 /// fails does not keep the others from being written; the first OutputError is thrown at the end.
 void write_pictures(const std::vector<std::string>& names, const Image& linear);

@@ -101,6 +101,9 @@ std::string read_text(const std::string& path) {
   struct stat info;
   if (stat(path.c_str(), &info) != 0) fail(errno);
   if (S_ISDIR(info.st_mode)) fail(EISDIR);  // fopen() of a folder would succeed
+  if (!S_ISREG(info.st_mode))               // may never end
+    throw InputError(
+        fmt::format("cannot read '{}': it is a pipe or a device; copy it to a file", path));
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) fail(errno);

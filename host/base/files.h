@@ -42,7 +42,7 @@ void check_writable(const std::string& path);
 /// Throws OutputError; `path` is always a file name ("-" is not standard output here).
 void write_text_atomic(const std::string& path, std::string_view text);
 
-/// Whole file as bytes. Throws InputError with path and reason.
+/// Whole regular file as bytes. Throws InputError with path and reason.
 std::string read_text(const std::string& path);
 
 /// Absolute path of the running program, links resolved; "" if the system does not tell.

@@ -72,7 +72,8 @@ void read_file(const std::string& path, const Read& read) {
   struct stat info;
   if (stat(path.c_str(), &info) != 0) fail(system_reason(errno));
   if (S_ISDIR(info.st_mode)) fail(system_reason(EISDIR));
-  if (info.st_size == 0 && S_ISREG(info.st_mode)) fail("the file is empty");
+  if (!S_ISREG(info.st_mode)) fail("it is a pipe or a device; copy it to a file");
+  if (info.st_size == 0) fail("the file is empty");
   const std::string reason = read();
   if (!reason.empty()) fail(reason);
 }

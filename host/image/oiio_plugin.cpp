@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -156,6 +157,19 @@ void linearise_colours(const OIIO::ImageSpec& spec, Image& image) {
       image.data[i] = srgb_to_linear(image.data[i]);
 }
 
+/// Why a header cannot be believed, or "": one changed byte can ask for terabytes. No compression
+/// of rendered pictures comes near the ratio, which leaves deflate's limit of 1032 far behind.
+std::string doubt(const OIIO::ImageSpec& spec, const std::string& path) {
+  constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28, most_channels = 4096;
+  constexpr std::uint64_t most_ratio = 1 << 16;
+  if (spec.image_pixels() <= most_pixels && std::uint64_t(spec.nchannels) <= most_channels &&
+      spec.image_bytes(true) <= OIIO::Filesystem::file_size(path) * most_ratio)
+    return "";
+  return "its header asks for " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+         " pixels of " + std::to_string(spec.nchannels) +
+         " channels, which the file cannot hold; it is damaged";
+}
+
 std::string read_file(const std::string& path, bool linearise, std::size_t most_pixels,
                       Image& image) {
   OIIO::ImageSpec config;
@@ -170,6 +184,8 @@ std::string read_file(const std::string& path, bool linearise, std::size_t most_
     return std::to_string(spec.width) + " x " + std::to_string(spec.height) +
            " pixels are too many; the most is " + std::to_string(most_pixels) + " in all";
 
+  if (const std::string why = doubt(spec, path); !why.empty()) return why;
+
   image.width = spec.width;
   image.height = spec.height;
   const bool crop = spec.x != spec.full_x || spec.y != spec.full_y ||
@@ -182,7 +198,8 @@ std::string read_file(const std::string& path, bool linearise, std::size_t most_
   }
   image.channels.assign(spec.channelnames.begin(), spec.channelnames.end());
   image.data.resize(spec.image_pixels() * std::size_t(spec.nchannels));
-  if (!file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, image.data.data()))
+  const bool read = file->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, image.data.data());
+  if (!read || file->has_error())  // the reader of TIFF says so only by its error
     return reason_or(file->geterror(), "pixels cannot be read");
   for (const OIIO::ParamValue& p : spec.extra_attribs) get_attribute(p, image.metadata);
   if (linearise && is_srgb(spec)) linearise_colours(spec, image);
@@ -277,6 +294,7 @@ std::string read_word_file(const std::string& path, WordImage& words) {
     if (spec.channelformat(c) != OIIO::TypeUInt32)
       return "not a checkpoint: channel " + spec.channelnames[std::size_t(c)] +
              " holds no whole numbers";
+  if (const std::string why = doubt(spec, path); !why.empty()) return why;
   words.width = spec.width;
   words.height = spec.height;
   words.channels.assign(spec.channelnames.begin(), spec.channelnames.end());

@@ -34,7 +34,8 @@ void add_mesh(const Mesh& mesh, uint shape_index, PackedScene& out) {
     out.triangles.push_back(Triangle{base + t.x, base + t.y, base + t.z, shape_index});
 }
 
-::Shape pack_shape(const ::Material& material, const Shape& shape, FeatureSet& features) {
+::Shape pack_shape(const Scene& scene, const ::Material& material, const Shape& shape,
+                   FeatureSet& features) {
   ::Shape out{};
   out.material = static_cast<uint>(shape.material);
   out.flags = emission_flags(shape);
@@ -209,7 +210,8 @@ void pack_shapes(const Scene& scene, PackedScene& out) {
   uint first_triangle = 0, first_quadric = static_cast<uint>(triangles);
   for (const Shape& shape : scene.shapes) {
     const auto index = static_cast<uint>(out.shapes.size());
-    ::Shape packed = pack_shape(out.materials.at(std::size_t(shape.material)), shape, out.features);
+    ::Shape packed =
+        pack_shape(scene, out.materials.at(std::size_t(shape.material)), shape, out.features);
     if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
       packed.first_prim = first_triangle;
       first_triangle += static_cast<uint>(mesh->triangles.size());

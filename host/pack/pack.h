@@ -42,6 +42,13 @@ struct PackedScene {
   double bvh_seconds = 0;
 };
 
+/// Bytes of one of these arrays. Not by the name of its type: in this namespace Shape, Material and
+/// Light are those of the scene model.
+template <typename T>
+std::size_t bytes_of(const std::vector<T>& array) {
+  return array.size() * sizeof(T);
+}
+
 /// Throws InputError where the scene exceeds a limit of the layout.
 PackedScene pack_scene(const Scene& scene, const PackOptions& options);
 

@@ -63,7 +63,7 @@ std::size_t MemoryPlan::tile_pixels() const {
 std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
                                                 const Integrator& integrator, std::size_t pixels) {
   std::map<std::string, std::size_t> bytes;
-#define PELLUCID_SCENE_BYTES(T, name, meaning) bytes[#name] = scene.name.size() * sizeof(T);
+#define PELLUCID_SCENE_BYTES(T, name, meaning) bytes[#name] = bytes_of(scene.name);
   SCENE_BUFFERS(PELLUCID_SCENE_BYTES)
 #undef PELLUCID_SCENE_BYTES
   bytes["samples"] = pixels * sizeof(F4);

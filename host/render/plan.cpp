@@ -27,7 +27,7 @@ std::vector<std::string> bundle_buffers(Bundle bundle) {
 std::map<std::string, Buffer> upload_scene(Device& device, const PackedScene& scene) {
   std::map<std::string, Buffer> buffers;
 #define PELLUCID_UPLOAD(T, name, meaning) \
-  buffers[#name] = device.create_buffer(#name, scene.name.size() * sizeof(T), scene.name.data());
+  buffers[#name] = device.create_buffer(#name, bytes_of(scene.name), scene.name.data());
   SCENE_BUFFERS(PELLUCID_UPLOAD)
 #undef PELLUCID_UPLOAD
   return buffers;

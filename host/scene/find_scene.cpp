@@ -30,7 +30,8 @@ std::vector<fs::path> scene_files(const std::string& folder) {
 std::string find_scene(const std::string& path_or_name,
                        const std::vector<std::string>& scene_folders) {
   std::error_code ignored;
-  const bool exists = fs::exists(path_or_name, ignored);
+  // A link that leads nowhere exists, too: the loader tells what is wrong with it.
+  const bool exists = fs::exists(fs::symlink_status(path_or_name, ignored));
   // A folder named like a shipped scene does not hide it; any other is left to the loader's
   // message.
   if (exists && !fs::is_directory(path_or_name, ignored)) return path_or_name;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
 
 #include "base/error.h"
 #include "scene/text_file.h"
@@ -16,6 +17,8 @@ namespace {
 
 /// Deeper nesting than any scene has; keeps recursion over the tree away from the stack's end.
 constexpr std::size_t max_depth = 32;
+/// More values than any scene has, and few enough to hold: geometry belongs into models.
+constexpr std::size_t max_values = std::size_t{2} << 20;
 
 /// Steps over the tokens of text that the parser has already accepted.
 class TokenCursor {
@@ -45,7 +48,7 @@ class TokenCursor {
       if (std::strchr(" \t\r\n,:", text_[at_]) != nullptr && text_[at_] != '\0') {
         ++at_;
       } else if (text_.compare(at_, 2, "//") == 0) {
-        at_ = std::min(text_.find('\n', at_), text_.size());
+        at_ = std::min(text_.find_first_of("\r\n", at_), text_.size());
       } else if (text_.compare(at_, 2, "/*") == 0) {
         const std::size_t end = text_.find("*/", at_ + 2);
         at_ = end == std::string::npos ? text_.size() : end + 2;
@@ -94,7 +97,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& name) override {
     const std::size_t offset = cursor_.take();
     JsonNode& object = *open_.back();
-    if (object.find(name) != nullptr)
+    if (!keys_.back().insert(name).second)
       fail_at(*source_, offset, object.path,
               fmt::format("key \"{}\" is given twice", printable(name)));
     object.members.push_back({name, offset, {}});
@@ -117,6 +120,10 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  private:
   JsonNode& add(JsonNode::Kind kind) {
     JsonNode* node = &root_;
+    if (++values_ > max_values)
+      fail_at(*source_, cursor_.take(), open_.back()->path,
+              fmt::format("more than {} values; large geometry belongs into a \"mesh\" file",
+                          max_values));
     if (!open_.empty()) {
       JsonNode& parent = *open_.back();
       if (parent.kind == JsonNode::Kind::array) {
@@ -148,12 +155,14 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
       fail(node, fmt::format("nested deeper than {} levels", max_depth));
     // Pointers stay valid: a parent's list grows only after this node has been closed.
     open_.push_back(&node);
+    keys_.emplace_back();
     return true;
   }
 
   bool close() {
     cursor_.take();
     open_.pop_back();
+    keys_.pop_back();
     return true;
   }
 
@@ -161,6 +170,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   TokenCursor cursor_;
   JsonNode root_;
   std::vector<JsonNode*> open_;
+  std::vector<std::unordered_set<std::string>> keys_;  ///< of each open node
+  std::size_t values_ = 0;
 };
 
 }  // namespace
@@ -191,6 +202,9 @@ const char* kind_name(JsonNode::Kind kind) {
 
 JsonNode parse_json(const std::string& path, std::string text) {
   auto source = std::make_shared<JsonSource>(JsonSource{path, std::move(text)});
+  // The parser would take it for the end of the text.
+  const std::size_t zero = source->text.find('\0');
+  if (zero != std::string::npos) fail_at(*source, zero, "", "a zero byte: this is no JSON text");
   TreeBuilder builder(source);
   constexpr bool strict = true, ignore_comments = true;
   nlohmann::json::sax_parse(source->text.begin(), source->text.end(), &builder,

@@ -43,8 +43,14 @@ double at_most_one(double v, const std::string& name, const char* key,
 }
 
 /// 1 is what exporters write when they do not know.
-double index_of(const tinyobj::material_t& mtl, double low, double high) {
-  return mtl.ior == 1.0f ? 1.5 : std::clamp<double>(mtl.ior, low, high);
+double index_of(const tinyobj::material_t& mtl, double low, double high,
+                std::vector<std::string>& warnings) {
+  if (mtl.ior == 1.0f) return 1.5;
+  const double ior = std::clamp<double>(mtl.ior, low, high);
+  if (ior != mtl.ior)
+    warnings.push_back(fmt::format("MTL material \"{}\": Ni {:g} was brought into {:g} to {:g}",
+                                   mtl.name, mtl.ior, low, high));
+  return ior;
 }
 
 Material convert_principled(const tinyobj::material_t& mtl, std::vector<std::string>& warnings) {
@@ -53,7 +59,7 @@ Material convert_principled(const tinyobj::material_t& mtl, std::vector<std::str
   look.metallic = at_most_one(mtl.metallic, mtl.name, "Pm", warnings);
   look.roughness = at_most_one(mtl.roughness, mtl.name, "Pr", warnings);
   look.transmission = is_glass(mtl) ? 1.0 : 0.0;
-  look.ior = index_of(mtl, 1.0, 3.0);
+  look.ior = index_of(mtl, 1.0, 3.0, warnings);
   return principled_material(look);
 }
 
@@ -62,6 +68,9 @@ void convert_glossy(const tinyobj::material_t& mtl, Material& material,
   material.kind = MaterialKind::phong;
   material.specular = to_rgb(mtl.specular);
   material.exponent = std::min<double>(mtl.shininess, 1e6);
+  if (material.exponent != mtl.shininess)
+    warnings.push_back(fmt::format("MTL material \"{}\": Ns {:g} was brought down to 1e6", mtl.name,
+                                   mtl.shininess));
   const double most = largest(material.reflectance + material.specular);
   if (most > 1.0) {
     material.reflectance /= most;
@@ -84,7 +93,7 @@ MtlSurface convert_mtl(const tinyobj::material_t& mtl, bool principled,
     material = convert_principled(mtl, warnings);
   } else if (is_glass(mtl)) {
     material.kind = MaterialKind::dielectric;
-    material.ior = index_of(mtl, 0.1, 10.0);
+    material.ior = index_of(mtl, 0.1, 10.0, warnings);
   } else if (mtl.illum == 3) {
     material.kind = MaterialKind::mirror;
     material.reflectance = at_most_one(ks != Rgb(0.0) ? ks : kd, mtl.name, "Ks", warnings);

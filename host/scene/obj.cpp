@@ -54,6 +54,7 @@ class LibraryReader : public tinyobj::MaterialReader {
 };
 
 void check_materials(const std::string& path, const ObjScan& scan,
+                     const std::vector<std::string>& files,
                      const std::vector<tinyobj::material_t>& materials) {
   if (scan.first_face_without_material > 0)
     throw InputError(fmt::format("{}:{}: the face has no material: no usemtl comes before it{}",
@@ -62,13 +63,15 @@ void check_materials(const std::string& path, const ObjScan& scan,
     throw InputError(
         fmt::format("{}: there is usemtl, but no mtllib that names a file{}", path, remedy));
   std::vector<std::string> names;
-  for (const tinyobj::material_t& material : materials) names.push_back(material.name);
+  for (const tinyobj::material_t& material : materials)
+    if (!material.name.empty())
+      names.push_back(material.name);  // an empty file makes one of no name
   for (const auto& [name, line] : scan.materials)
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw InputError(fmt::format("{}:{}: the material file has no material \"{}\".{} It has {}",
-                                   path, line, printable(name),
-                                   did_you_mean(printable(name), names),
-                                   names.empty() ? "none" : list_choices(names)));
+      throw InputError(
+          fmt::format("{}:{}: the material file {} has no material \"{}\".{} It has {}", path, line,
+                      join(files), printable(name), did_you_mean(printable(name), names),
+                      names.empty() ? "none" : list_choices(names)));
 }
 
 /// Collects the triangles of one part, sharing vertices that agree in position, normal and, where
@@ -194,15 +197,18 @@ void convert_material(const tinyobj::material_t& mtl, const MtlScan& scan, ObjMo
 }
 
 /// Converts the materials in use and renumbers the parts accordingly.
-void convert_materials(const std::vector<tinyobj::material_t>& materials, const MtlScan& scan,
-                       ObjModel& model) {
+void convert_materials(const std::string& path, const std::vector<tinyobj::material_t>& materials,
+                       const MtlScan& scan, ObjModel& model) {
   std::map<int, int> renumbered;
   std::vector<std::optional<Emission>> emissions;
   for (ObjPart& part : model.parts) {
     const auto [entry, added] =
         renumbered.emplace(part.material, static_cast<int>(model.materials.size()));
     if (added) {
-      PELLUCID_CHECK(part.material >= 0, "a face without material slipped through the scan");
+      if (part.material < 0)
+        throw InputError(fmt::format(
+            "{}: \"{}\" uses a material before the mtllib that holds it; move mtllib to the top",
+            path, printable(part.name)));
       convert_material(materials[static_cast<std::size_t>(part.material)], scan, model, emissions);
     }
     part.material = entry->second;
@@ -248,14 +254,15 @@ ObjModel load_obj(const std::string& path, const ObjOptions& options) {
       tinyobj::LoadObj(&attrib, &shapes, &materials, &ignored_warning, &error, &in,
                        options.ignore_materials ? nullptr : &reader, triangulate, vertex_colors);
   if (!loaded) throw InputError(fmt::format("{}: {}", path, printable(error, 200)));
-  if (!options.ignore_materials && !shapes.empty()) check_materials(path, scan, materials);
+  if (!options.ignore_materials && !shapes.empty())
+    check_materials(path, scan, {model.files.begin() + 1, model.files.end()}, materials);
   const std::vector<bool> with_texture = find_textured(reader.scan(), materials);
   model.not_supported.insert(reader.scan().not_supported.begin(),
                              reader.scan().not_supported.end());
   for (const tinyobj::shape_t& shape : shapes)
     add_parts(shape, attrib, options, with_texture, model);
   if (model.parts.empty()) throw InputError(fmt::format("{}: the file has no faces", path));
-  if (!options.ignore_materials) convert_materials(materials, reader.scan(), model);
+  if (!options.ignore_materials) convert_materials(path, materials, reader.scan(), model);
   return model;
 }
 

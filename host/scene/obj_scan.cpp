@@ -18,23 +18,26 @@
 namespace pellucid {
 namespace {
 
-/// The words of one line at a time, with errors that name the place.
+/// The words of one line at a time, with errors that name the place. Lines end in LF, CR LF or CR.
+/// Comments, which may stand behind other words, become blanks.
 class LineReader {
  public:
-  LineReader(const std::string& path, const std::string& text) : path_(path), text_(text) {}
+  LineReader(const std::string& path, std::string& text) : path_(path), text_(text) {}
 
   /// Moves to the next line that has words; comments count as empty.
   bool next() {
     while (at_ < text_.size()) {
-      const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-      std::string_view line(text_.data() + at_, end - at_);
-      at_ = end + 1;
+      begin_ = at_;
+      end_ = std::min(text_.find_first_of("\r\n", at_), text_.size());
+      at_ = end_ + (text_.compare(end_, 2, "\r\n") == 0 ? 2 : 1);
       ++number_;
-      split(line.substr(0, line.find('#')));
+      split({text_.data() + begin_, end_ - begin_});
       if (!words_.empty()) return true;
     }
     return false;
   }
+  /// Makes the line empty for whoever reads the text next.
+  void blank() { std::fill(&text_[begin_], &text_[begin_] + (end_ - begin_), ' '); }
 
   const std::vector<std::string_view>& words() const { return words_; }
   int number() const { return number_; }
@@ -75,8 +78,10 @@ class LineReader {
  private:
   void split(std::string_view line) {
     words_.clear();
-    constexpr const char* blanks = " \t\r";
+    constexpr const char* blanks = " \t";
     for (std::size_t start = line.find_first_not_of(blanks); start != std::string_view::npos;) {
+      if (line[start] == '#')
+        return std::fill(&text_[begin_ + start], &text_[begin_] + line.size(), ' ');
       const std::size_t end = std::min(line.find_first_of(blanks, start), line.size());
       words_.push_back(line.substr(start, end - start));
       start = line.find_first_not_of(blanks, end);
@@ -84,8 +89,8 @@ class LineReader {
   }
 
   const std::string& path_;
-  const std::string& text_;
-  std::size_t at_ = 0;
+  std::string& text_;
+  std::size_t begin_ = 0, end_ = 0, at_ = 0;
   int number_ = 0;
   std::vector<std::string_view> words_;
 };
@@ -102,7 +107,7 @@ void check_index(const LineReader& line, std::string_view word, long count, cons
   const long index = std::strtol(text.c_str(), &end, 10);
   if (text.empty() || end != text.c_str() + text.size() || index == 0)
     line.fail(fmt::format("\"{}\" is not a {} index", printable(text), what));
-  if (index > count || -index > count)
+  if (index > count || index < -count)
     line.fail(fmt::format("the face asks for {} {}, but the file has given {} so far", what, index,
                           count));
 }
@@ -122,7 +127,12 @@ void check_corner(const LineReader& line, std::string_view corner, const Counts&
 }
 
 void check_face(const LineReader& line, const Counts& counts) {
+  // tinyobjloader cuts polygons in a time that grows with the square of their corners, at least.
+  constexpr std::size_t most_corners = 4096;
   if (line.words().size() < 4) line.fail("a face needs at least three corners");
+  if (line.words().size() - 1 > most_corners)
+    line.fail(fmt::format("the face has {} corners, the most is {}; cut it into triangles",
+                          line.words().size() - 1, most_corners));
   for (std::size_t i = 1; i < line.words().size(); ++i) check_corner(line, line.words()[i], counts);
 }
 
@@ -170,7 +180,7 @@ MtlTexture read_map(const LineReader& line, const std::string& path,
 
 }  // namespace
 
-ObjScan scan_obj(const std::string& path, const std::string& text) {
+ObjScan scan_obj(const std::string& path, std::string& text) {
   static const std::set<std::string_view> harmless = {"o", "g", "s"};
   ObjScan scan;
   Counts counts;
@@ -198,12 +208,14 @@ ObjScan scan_obj(const std::string& path, const std::string& text) {
       scan.names_library = true;
     } else if (harmless.count(key) == 0) {
       scan.not_supported.emplace("OBJ \"" + printable(std::string(key), 20) + "\"", path);
+      line.blank();
+      continue;
     }
   }
   return scan;
 }
 
-MtlScan scan_mtl(const std::string& path, const std::string& text) {
+MtlScan scan_mtl(const std::string& path, std::string& text) {
   // Keyword -> how many numbers follow. Ka is read past: ambient light has no place in transport.
   // Pcr and anisor say how a clearcoat and anisotropy look, which have no effect themselves.
   static const std::map<std::string_view, std::size_t> known = {

@@ -17,7 +17,9 @@ struct ObjScan {
 };
 
 /// Checks every number, index and keyword of an OBJ text. Throws InputError with file:line.
-ObjScan scan_obj(const std::string& path, const std::string& text);
+/// Comments and lines of unknown keywords become blanks: tinyobjloader would read some of them,
+/// unchecked.
+ObjScan scan_obj(const std::string& path, std::string& text);
 
 /// A map_Kd line.
 struct MtlTexture {
@@ -43,7 +45,7 @@ struct MtlScan {
 };
 
 /// Checks the numbers of an MTL text and collects its textures and the keywords that pellucid has
-/// no use for.
-MtlScan scan_mtl(const std::string& path, const std::string& text);
+/// no use for. Comments become blanks.
+MtlScan scan_mtl(const std::string& path, std::string& text);
 
 }  // namespace pellucid

@@ -1,11 +1,11 @@
 // Camera, lights and emission of the scene file.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "scene/parse.h"
+#include "scene/transform.h"
 
 namespace pellucid {
 namespace {
@@ -15,9 +15,8 @@ constexpr double pi = 3.14159265358979323846;
 /// A direction of any length but zero, made unit length.
 glm::dvec3 unit_vector(const ObjectReader& reader, const std::string& key) {
   const glm::dvec3 v = reader.vector(key);
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(largest > 0.0)) fail(reader.place(key), "a direction must not be zero");
-  return glm::normalize(v / largest);  // scaled first, so that squares neither vanish nor overflow
+  if (v == glm::dvec3(0.0)) fail(reader.place(key), "a direction must not be zero");
+  return unit_of(v);
 }
 
 FovAxis fov_axis(const std::string& name) {

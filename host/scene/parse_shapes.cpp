@@ -1,6 +1,8 @@
 // Shapes of the scene file.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 
@@ -67,12 +69,27 @@ double similarity_scale(const ObjectReader& reader, const Affine& transform, con
   return *scale;
 }
 
+/// What a transform makes of a center and a radius has to stay in range, as they are by themselves.
+void check_reach(const ObjectReader& reader, glm::dvec3 center, double radius) {
+  const double reach = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
+  if (!(reach <= largest_length && radius <= largest_length && radius >= 1.0 / largest_length))
+    fail(reader.place("transform"),
+         fmt::format(
+             "makes a center at {:g} {:g} {:g} and a radius of {:g}; coordinates reach {:g}, "
+             "lengths lie between {:g} and {:g}",
+             center.x, center.y, center.z, radius, largest_length, 1.0 / largest_length,
+             largest_length));
+}
+
 Sphere parse_sphere(const ObjectReader& reader, const Affine& transform) {
   const double scale = similarity_scale(
       reader, transform, "a \"displaced-sphere\" with amplitude 0, which is made of triangles");
   const glm::dmat3 axes = transform.linear / scale;
-  return {transform.point(reader.vector("center")), scale * reader.number("radius"),
-          glm::dmat3(glm::normalize(axes[0]), glm::normalize(axes[1]), glm::normalize(axes[2]))};
+  const Sphere sphere{
+      transform.point(reader.vector("center")), scale * reader.number("radius"),
+      glm::dmat3(glm::normalize(axes[0]), glm::normalize(axes[1]), glm::normalize(axes[2]))};
+  check_reach(reader, sphere.center, sphere.radius);
+  return sphere;
 }
 
 /// A direction across `normal` to which u grows, so that v grows upwards (+y) as far as it can.
@@ -88,9 +105,11 @@ Disk parse_disk(const ObjectReader& reader, const ShapeParts& parts) {
   if (normal == glm::dvec3(0.0)) fail(reader.place("normal"), "a normal must not be zero");
   const glm::dvec3 world = parts.transform.normal(normal), u_axis = upright_u_axis(normal);
   const glm::dvec3 v_axis = glm::cross(glm::normalize(normal), u_axis);
-  return {parts.transform.point(reader.vector("center")), parts.flip ? -world : world,
-          scale * reader.number("radius"), glm::normalize(parts.transform.linear * u_axis),
-          glm::normalize(parts.transform.linear * v_axis)};
+  const Disk disk{parts.transform.point(reader.vector("center")), parts.flip ? -world : world,
+                  scale * reader.number("radius"), glm::normalize(parts.transform.linear * u_axis),
+                  glm::normalize(parts.transform.linear * v_axis)};
+  check_reach(reader, disk.center, disk.radius);
+  return disk;
 }
 
 RawMesh parse_rectangle(const ObjectReader& reader) {

@@ -226,6 +226,8 @@ const ObjectSpec& typed_spec(const JsonNode& node, const std::string& family) {
 const std::string& read_text(const JsonNode& node) {
   expect_kind(node, Kind::string, "a text");
   if (node.text.empty()) fail(node, "must not be empty");
+  // Names of files and kernels would end there.
+  if (node.text.find('\0') != std::string::npos) fail(node, "must not hold a zero character");
   return node.text;
 }
 

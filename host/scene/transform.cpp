@@ -1,6 +1,7 @@
 // Affine transforms of the scene file, in double.
 #include "scene/transform.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/noise.h"
@@ -10,7 +11,7 @@ namespace pellucid {
 namespace {
 
 glm::dmat3 rotation(glm::dvec3 axis, double degrees) {
-  const glm::dvec3 a = axis / glm::length(axis);
+  const glm::dvec3 a = unit_of(axis);
   const SineCosine angle = sin_cos_turns(degrees / 360.0);
   const glm::dmat3 cross(0.0, a.z, -a.y, -a.z, 0.0, a.x, a.y, -a.x, 0.0);  // columns
   return angle.cos * glm::dmat3(1.0) + angle.sin * cross +
@@ -29,7 +30,7 @@ Affine read_step(const JsonNode& node) {
   } else if (kind == "rotate") {
     const ObjectReader turn(step.place(kind), object_spec("rotate"));
     const glm::dvec3 axis = turn.vector("axis");
-    if (!(glm::length(axis) > 0.0)) fail(turn.place("axis"), "an axis must not be zero");
+    if (axis == glm::dvec3(0.0)) fail(turn.place("axis"), "an axis must not be zero");
     result.linear = rotation(axis, turn.number("degrees"));
   } else {
     const std::vector<double> m = step.numbers(kind);
@@ -46,12 +47,17 @@ Affine read_step(const JsonNode& node) {
 
 }  // namespace
 
+glm::dvec3 unit_of(glm::dvec3 v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return glm::normalize(v / largest);
+}
+
 glm::dvec3 Affine::normal(glm::dvec3 n) const {
   // The cofactor matrix is the inverse transpose times the determinant, and needs no division.
   const glm::dmat3& m = linear;
   const glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-  const glm::dvec3 v = cofactor * n;
-  return (mirrors() ? -v : v) / glm::length(v);
+  const glm::dvec3 v = unit_of(cofactor * unit_of(n));
+  return mirrors() ? -v : v;
 }
 
 std::optional<double> Affine::uniform_scale() const {

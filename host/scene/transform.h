@@ -8,6 +8,10 @@
 
 namespace pellucid {
 
+/// The vector, which is not zero, made unit length; scaled first, so that squares neither vanish
+/// nor overflow.
+glm::dvec3 unit_of(glm::dvec3 v);
+
 /// p -> linear * p + offset.
 struct Affine {
   glm::dmat3 linear{1.0};

@@ -4,7 +4,12 @@
 #include "shared/probe.h"
 
 #define PROBE_SIZE(T) out[i++] = (uint)sizeof(T);
-#define PROBE_FIELD(T, field) out[i++] = (uint)((size_t) & (((T*)0)->field));
+// Not by a null pointer: its bits are the device's own affair (all ones in Mesa).
+#define PROBE_FIELD(T, field)                                 \
+  {                                                           \
+    T whole;                                                  \
+    out[i++] = (uint)((uchar*)&whole.field - (uchar*)&whole); \
+  }
 
 __kernel void probe_layout(__global uint* out) {
   uint i = 0;

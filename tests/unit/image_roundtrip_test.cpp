@@ -166,10 +166,14 @@ struct ForgiveLeaks {
 #endif
 };
 
+/// Every type of picture that pellucid writes, or reads in tests of others.
+const char* const picture_types[] = {".exr", ".png", ".hdr", ".tif", ".jpg",
+                                     ".bmp", ".tga", ".ppm", ".webp"};
+
 TEST_F(ImageFile, TruncatedAtTwentyPlacesIsAnError) {
   const Image image = sample(64, 64, {"R", "G", "B", "Z"});
   [[maybe_unused]] const ForgiveLeaks forgive;
-  for (const std::string suffix : {".exr", ".png"}) {
+  for (const std::string suffix : picture_types) {
     write_image(path("whole" + suffix), image);
     const std::string bytes = read_text(path("whole" + suffix));
     for (std::size_t i = 0; i < 20; ++i) {
@@ -183,14 +187,28 @@ TEST_F(ImageFile, TruncatedAtTwentyPlacesIsAnError) {
 }
 
 TEST_F(ImageFile, CorruptedBytesNeverCrash) {
-  write_image(path("whole.exr"), sample(16, 16, {"R", "G", "B"}));
-  const std::string bytes = read_text(path("whole.exr"));
-  for (std::size_t i = 0; i < bytes.size(); i += 7) {
-    std::string damaged = bytes;
-    damaged[i] = static_cast<char>(~damaged[i]);
-    write_text_atomic(path("damaged.exr"), damaged);
-    error_of_reading(path("damaged.exr"));  // an error or a picture, both are fine
+  [[maybe_unused]] const ForgiveLeaks forgive;
+  for (const std::string suffix : picture_types) {
+    write_image(path("whole" + suffix), sample(16, 16, {"R", "G", "B"}));
+    const std::string bytes = read_text(path("whole" + suffix));
+    const std::size_t header = 64;  // where sizes and offsets stand: every byte of it
+    for (std::size_t i = 0; i < bytes.size(); i += i < header ? 1 : 37) {
+      SCOPED_TRACE(suffix + " byte " + std::to_string(i));
+      std::string damaged = bytes;
+      damaged[i] = static_cast<char>(~damaged[i]);
+      write_text_atomic(path("damaged" + suffix), damaged);
+      error_of_reading(path("damaged" + suffix));  // an error or a picture, both are fine
+    }
   }
+}
+
+TEST_F(ImageFile, AbsurdSizesAreRefusedBeforeMemoryIsTaken) {
+  write_text_atomic(path("a.ppm"), "P6 60000 60000 255\nabc");
+  write_text_atomic(path("a.pfm"), "PF\n2000000000 2000000000\n-1.0\nabc");
+  write_text_atomic(path("a.hdr"), "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\nabc");
+  for (const char* name : {"a.ppm", "a.pfm", "a.hdr"})
+    EXPECT_NE(error_of_reading(path(name)).find(name), std::string::npos);
+  EXPECT_NE(error_of_reading(path("a.ppm")).find("60000x60000"), std::string::npos);
 }
 
 TEST_F(ImageFile, WhatCannotBeReadIsNamedWithItsReason) {
@@ -200,6 +218,7 @@ TEST_F(ImageFile, WhatCannotBeReadIsNamedWithItsReason) {
   EXPECT_NE(error_of_reading(path("empty.exr")).find("empty"), std::string::npos);
   write_text_atomic(path("text.exr"), "this is no picture");
   EXPECT_NE(error_of_reading(path("text.exr")), "");
+  EXPECT_NE(error_of_reading("/dev/zero").find("a device"), std::string::npos);
 }
 
 TEST_F(ImageFile, WhatCannotBeWrittenIsNamedWithItsReason) {

@@ -27,6 +27,8 @@ class TempFolder {
   TempFolder& operator=(const TempFolder&) = delete;
 
   std::string write(const std::string& name, const std::string& text) const {
+    // A new file instead of a truncated one, which some file systems write to the disk at once.
+    std::filesystem::remove(path_ / name);
     std::ofstream(path_ / name, std::ios::binary) << text;
     return (path_ / name).string();
   }
