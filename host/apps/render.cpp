@@ -19,6 +19,7 @@
 #include "base/timer.h"
 #include "integrators/reach.h"
 #include "integrators/registry.h"
+#include "render/aov.h"
 
 namespace pellucid {
 namespace {
@@ -34,6 +35,7 @@ class RenderJob {
   void check_outputs() const;
   void prepare();
   std::optional<Film> resumed_film();
+  void render_aov_channels(const Device& target);
   bool render(Session& session);
   void write(const Film& film, bool pictures);
   void write_pictures_of(const Film& film);
@@ -47,6 +49,7 @@ class RenderJob {
   Scene scene_;
   RenderFacts facts_;
   std::vector<std::string> names_;
+  std::vector<AovChannel> aovs_;
   std::optional<Checkpoint> earlier_;  ///< what --resume found, without its film
 };
 
@@ -62,8 +65,7 @@ void RenderJob::check_outputs() const {
 void RenderJob::prepare() {
   flags_.check();
   scene_ = open_scene(flags_.scene);
-  if (!flags_.size.empty())
-    std::tie(scene_.settings.width, scene_.settings.height) = parse_size("--size", flags_.size);
+  flags_.override_settings(scene_.settings);
   facts_.scene = &scene_;
   facts_.integrator = &choose_integrator(flags_.integrator, scene_);
   facts_.options = flags_.options(scene_, *facts_.integrator);
@@ -99,6 +101,7 @@ void RenderJob::write_pictures_of(const Film& film) {
     return std::find(flags_.aovs.begin(), flags_.aovs.end(), aov) != flags_.aovs.end();
   };
   Image image = film_image(film, asked("variance"), asked("samples"));
+  add_channels(image, aovs_);
   image.metadata = lasting_evidence(facts_);
   add_progress(film, facts_.film, facts_.session->counters(), facts_.seconds.render,
                image.metadata);
@@ -128,6 +131,17 @@ void RenderJob::write(const Film& film, bool pictures) {
   }
   if (pictures) write_pictures_of(film);
   if (first) std::rethrow_exception(first);
+}
+
+/// What --aov asks of the AOV pass; before the render, so that the scene is on the device once.
+void RenderJob::render_aov_channels(const Device& target) {
+  if (flags_.aovs.empty()) return;
+  Progress progress("rendering AOVs");
+  std::vector<Counter> counters = make_counters();
+  aovs_ = render_aovs(target, *facts_.packed, flags_.aovs, facts_.options, counters);
+  const std::string wrong = describe_counters(counters);
+  if (flags_.strict && error_count(counters) > 0) throw NumericError("--strict: AOVs: " + wrong);
+  if (!wrong.empty()) log_warn("device counters of the AOVs: {}", wrong);
 }
 
 /// Renders with progress and signals; false if stopped early. Writes the picture on SIGUSR1 and the
@@ -203,6 +217,7 @@ ExitCode RenderJob::run() {
   }();
   facts_.packed = &packed;
   facts_.seconds.bvh = phase.seconds();
+  render_aov_channels(target);
   auto session = [&] {
     Progress progress("building kernels");
     return Session(target, packed, *facts_.integrator, facts_.options, std::move(start));

@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
+#include <tuple>
 
 #include "apps/common.h"
 #include "apps/outputs.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "integrators/registry.h"
+#include "render/aov.h"
 
 namespace pellucid {
 namespace {
@@ -49,6 +52,26 @@ std::optional<PassRange> pass_range(const RenderFlags& flags, const Scene& scene
   return PassRange{0, scene.settings.spp ? std::uint64_t(*scene.settings.spp) : default_spp};
 }
 
+std::string one_of(const std::string& option, const std::string& text,
+                   const std::vector<std::string>& choices) {
+  if (std::find(choices.begin(), choices.end(), text) != choices.end()) return text;
+  throw UsageError(option + ": '" + text + "' is none of " + join(choices) + "." +
+                   did_you_mean(text, choices));
+}
+
+/// Everything that --aov takes: the film's own channels, then those of the AOV pass.
+std::vector<std::string> aov_names() {
+  std::vector<std::string> names{"variance", "samples"};
+  for (const AovInfo& info : aov_table()) names.push_back(info.name);
+  return names;
+}
+
+std::string aov_help() {
+  std::string text = "further EXR channels, by comma: variance (of each pixel's mean), samples";
+  for (const AovInfo& info : aov_table()) text += ", " + info.name + " (" + info.doc + ")";
+  return text;
+}
+
 }  // namespace
 
 void RenderFlags::declare(CLI::App& app) {
@@ -65,6 +88,13 @@ void RenderFlags::declare(CLI::App& app) {
   app.add_option("--time", time,
                  "stop after this long, e.g. 60s or 10m; with --spp, whichever is first")
       ->type_name("DURATION");
+  app.add_option("--sampler", sampler,
+                 "sobol (default): scrambled Sobol points, less noise; random: independent numbers")
+      ->type_name("NAME");
+  app.add_option(
+         "--filter", filter,
+         "pixel filter: " + join(pixel_filter_names()) + " (default: the scene's, else gaussian)")
+      ->type_name("NAME");
   app.add_option("--seed", seed, "random seed (default 0)")->check(whole_number);
   app.add_option("--size", size, "image size in pixels, e.g. 640x480 (default: the scene's)")
       ->type_name("WxH");
@@ -80,9 +110,7 @@ void RenderFlags::declare(CLI::App& app) {
          "picture to write, type by suffix; repeatable (default: SCENE.exr and SCENE.png here)")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  app.add_option("--aov", aovs, "further EXR channels: variance (of each pixel's mean), samples")
-      ->type_name("LIST")
-      ->delimiter(',');
+  app.add_option("--aov", aovs, aov_help())->type_name("LIST")->delimiter(',');
   app.add_option(
          "--checkpoint", checkpoint,
          "keep the render in this file, to go on with (--resume) or to merge; written at the "
@@ -117,6 +145,12 @@ void RenderFlags::declare(CLI::App& app) {
   app.footer("Example: pellucid render cornell-box --spp 128 -o box.exr -o box.png");
 }
 
+void RenderFlags::override_settings(RenderSettings& settings) const {
+  if (!size.empty()) std::tie(settings.width, settings.height) = parse_size("--size", size);
+  if (!filter.empty())
+    settings.filter = find_pixel_filter(one_of("--filter", filter, pixel_filter_names()));
+}
+
 RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) const {
   RenderOptions o;
   o.width = s.settings.width;
@@ -129,6 +163,7 @@ RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) con
   if (max_depth) o.max_depth = uint(max_depth);
   if (!max_depth && s.settings.max_depth) o.max_depth = uint(*s.settings.max_depth);
   o.mis = parse_mis(mis, method);
+  o.plan.sampler = find_sampler(sampler);
   o.plan.extra_features = parse_feature_request(features);
   o.plan.kernel_dir = kernel_dir;
   o.plan.group = group;
@@ -148,10 +183,8 @@ double RenderFlags::checkpoint_period() const {
 void RenderFlags::check() const {
   if (checkpoint.empty() && resume) throw UsageError("--resume needs --checkpoint FILE beside it");
   parse_duration("--every", every);
-  for (const std::string& aov : aovs)
-    if (aov != "variance" && aov != "samples")
-      throw UsageError("--aov: there is no '" + aov + "'; there are variance, samples." +
-                       did_you_mean(aov, {"variance", "samples"}));
+  for (const std::string& aov : aovs) one_of("--aov", aov, aov_names());
+  one_of("--sampler", sampler, sampler_names());
 }
 
 }  // namespace pellucid

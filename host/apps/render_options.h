@@ -13,9 +13,9 @@ namespace pellucid {
 
 /// Options as people write them. Precedence: flag, environment, scene, default.
 struct RenderFlags {
-  std::string scene, integrator, mis = "balance", time, size, crop, passes, device,
-                                 features = "auto", kernel_dir, stats, memory, checkpoint,
-                                 every = "60s";
+  std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, size, crop,
+                                 passes, device, features = "auto", kernel_dir, stats, memory,
+                                 checkpoint, every = "60s";
   std::vector<std::string> outputs, aovs;
   std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0;
   bool strict = false, deterministic = false, resume = false;
@@ -23,6 +23,8 @@ struct RenderFlags {
   void declare(CLI::App& app);
   /// Throws UsageError for a value that no scene could make sense of.
   void check() const;
+  /// The scene's settings as the flags want them. Throws UsageError.
+  void override_settings(RenderSettings& settings) const;
   /// What the session is told. Throws UsageError.
   RenderOptions options(const Scene& scene, const Integrator& method) const;
   /// Seconds between two checkpoints.

@@ -50,11 +50,12 @@ std::vector<float> row_vector_matrix(const glm::dmat4& m) {
 }
 
 /// Everything that changes what is rendered and is no matter of effort.
-std::string settings_text(const RenderOptions& o) {
+std::string settings_text(const Scene& scene, const RenderOptions& o) {
   const Window w = o.window();
-  return fmt::format("{}x{} crop {},{},{},{} max-depth {} mis {} filter box sampler random",
-                     o.width, o.height, w.x0, w.x0 + w.width, w.y0, w.y0 + w.height,
-                     o.max_depth ? std::to_string(*o.max_depth) : "unlimited", mis_name(o.mis));
+  return fmt::format("{}x{} crop {},{},{},{} max-depth {} mis {} filter {} sampler {}", o.width,
+                     o.height, w.x0, w.x0 + w.width, w.y0, w.y0 + w.height,
+                     o.max_depth ? std::to_string(*o.max_depth) : "unlimited", mis_name(o.mis),
+                     pixel_filter_info(scene.settings.filter).name, sampler_name(o.plan.sampler));
 }
 
 std::string counters_text(const std::vector<Counter>& counters) {
@@ -74,7 +75,7 @@ Evidence lasting_evidence(const RenderFacts& f) {
   meta["pellucid:version"] = std::string(version()) + " " + commit();
   meta["pellucid:scene"] = f.scene->name;
   meta["pellucid:sceneHash"] = f.scene_hash;
-  meta["pellucid:settings"] = settings_text(f.options);
+  meta["pellucid:settings"] = settings_text(*f.scene, f.options);
   meta["pellucid:integrator"] = f.integrator->name;
   meta["pellucid:seed"] = std::to_string(f.options.seed);
   meta["pellucid:features"] = f.session->plan().specialisation().features.describe();
@@ -101,7 +102,7 @@ void make_deterministic(Evidence& evidence) {
 std::map<std::string, std::string> identity(const RenderFacts& f) {
   return {{"scene", f.scene_hash},
           {"kernels", f.kernels_hash},
-          {"settings", settings_text(f.options)},
+          {"settings", settings_text(*f.scene, f.options)},
           {"integrator", f.integrator->name},
           {"seed", std::to_string(f.options.seed)}};
 }

@@ -48,12 +48,13 @@ PackedScene pack_scene(const Scene& scene, const PackOptions& options) {
   if (out.features.has(FEAT_TEXTURE)) pack_textures(scene, out);
   pack_bvh(out);
   pack_lights(scene, out);
+  pack_filter(scene, out);
   out.camera = pack_camera(scene.camera, scene.settings.width, scene.settings.height);
   never_empty(out.nodes), never_empty(out.leaves), never_empty(out.leaf_prims);
   never_empty(out.quadrics), never_empty(out.triangles), never_empty(out.positions);
   never_empty(out.normals), never_empty(out.shapes), never_empty(out.materials);
   never_empty(out.lights), never_empty(out.uvs), never_empty(out.textures);
-  never_empty(out.texels);
+  never_empty(out.texels), never_empty(out.filter_table);
   return out;
 }
 

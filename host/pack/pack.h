@@ -32,6 +32,7 @@ struct PackedScene {
   std::vector<::Texture> textures;
   std::vector<uint> texels;  ///< [texels][2]
   std::vector<::Light> lights;
+  std::vector<float> filter_table;  ///< [FILTER_STEPS + 1], or empty for the box
   SceneInfo info{};
   ::Camera camera{};
   FeatureSet features;          ///< what the scene needs

@@ -25,4 +25,7 @@ void pack_bvh(PackedScene& out);
 /// lights.cpp: lights of shapes and of the scene, with one alias table by power.
 void pack_lights(const Scene& scene, PackedScene& out);
 
+/// filter.cpp: the pixel filter.
+void pack_filter(const Scene& scene, PackedScene& out);
+
 }  // namespace pellucid

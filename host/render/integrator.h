@@ -9,7 +9,7 @@
 namespace pellucid {
 
 /// Bundles of kernels/shared/buffers.h, in the order of a kernel's parameters.
-enum class Bundle { scene, film, splat, diag };
+enum class Bundle { scene, filter, film, splat, aov, diag };
 
 /// One kernel per iteration. `name` is the file passes/<name>.cl, its kernel, its timer and its row
 /// in every report.

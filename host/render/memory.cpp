@@ -65,9 +65,13 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
   std::map<std::string, std::size_t> bytes;
 #define PELLUCID_SCENE_BYTES(T, name, meaning) bytes[#name] = bytes_of(scene.name);
   SCENE_BUFFERS(PELLUCID_SCENE_BYTES)
+  FILTER_BUFFERS(PELLUCID_SCENE_BYTES)
 #undef PELLUCID_SCENE_BYTES
-  bytes["samples"] = pixels * sizeof(F4);
-  bytes["film"] = pixels * sizeof(FilmPixel);
+  if (uses(integrator, Bundle::film)) {
+    bytes["samples"] = pixels * sizeof(F4);
+    bytes["film"] = pixels * sizeof(FilmPixel);
+  }
+  if (uses(integrator, Bundle::aov)) bytes["aovs"] = pixels * sizeof(AovPixel);
   bytes["diag"] = DIAG_COUNT * sizeof(uint);
   constexpr std::size_t words_per_pixel = 6;  // three channels of 64 bits
   if (uses(integrator, Bundle::splat)) bytes["splats"] = pixels * words_per_pixel * sizeof(uint);

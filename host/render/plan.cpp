@@ -13,10 +13,14 @@ std::vector<std::string> bundle_buffers(Bundle bundle) {
   switch (bundle) {
     case Bundle::scene:
       return {SCENE_BUFFERS(PELLUCID_NAME)};
+    case Bundle::filter:
+      return {FILTER_BUFFERS(PELLUCID_NAME)};
     case Bundle::film:
       return {FILM_BUFFERS(PELLUCID_NAME)};
     case Bundle::splat:
       return {SPLAT_BUFFERS(PELLUCID_NAME)};
+    case Bundle::aov:
+      return {AOV_BUFFERS(PELLUCID_NAME)};
     case Bundle::diag:
       return {DIAG_BUFFERS(PELLUCID_NAME)};
   }
@@ -29,6 +33,7 @@ std::map<std::string, Buffer> upload_scene(Device& device, const PackedScene& sc
 #define PELLUCID_UPLOAD(T, name, meaning) \
   buffers[#name] = device.create_buffer(#name, bytes_of(scene.name), scene.name.data());
   SCENE_BUFFERS(PELLUCID_UPLOAD)
+  FILTER_BUFFERS(PELLUCID_UPLOAD)
 #undef PELLUCID_UPLOAD
   return buffers;
 }
@@ -63,6 +68,7 @@ Specialisation specialise(const PackedScene& scene, const Integrator& integrator
                           const DeviceInfo& device, const PlanOptions& options) {
   Specialisation s;
   s.features = scene.features | integrator.wishes | options.extra_features;
+  if (options.sampler == Sampler::sobol) s.features.set(INTG_SOBOL);
   s.simd_width = scene.simd_width;
   s.stack_bound = scene.stack_bound;
   s.simd_builtins = options.simd_builtins;

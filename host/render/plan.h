@@ -12,6 +12,7 @@
 #include "render/diagnostics.h"
 #include "render/film.h"
 #include "render/integrator.h"
+#include "render/sampler.h"
 #include "render/specialise.h"
 
 namespace pellucid {
@@ -21,6 +22,7 @@ namespace pellucid {
 constexpr std::size_t default_group = 64;
 
 struct PlanOptions {
+  Sampler sampler = Sampler::sobol;
   FeatureSet extra_features;  ///< on top of what the scene needs
   std::string kernel_dir;     ///< read kernels from here instead of the binary
   std::size_t group = 0;      ///< work-items per group; 0: default_group or what the kernel can
@@ -30,7 +32,7 @@ struct PlanOptions {
 /// Parameter names of a bundle, from the kernels' own list (kernels/shared/buffers.h).
 std::vector<std::string> bundle_buffers(Bundle bundle);
 
-/// All buffers of Bundle::scene, uploaded.
+/// All buffers of Bundle::scene and Bundle::filter, uploaded.
 std::map<std::string, Buffer> upload_scene(Device& device, const PackedScene& scene);
 
 /// Adds the device's counters to `counters` and clears them.

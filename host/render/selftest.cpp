@@ -67,6 +67,7 @@ SelfTestRender selftest_render(const Device& device, const Integrator& integrato
   options.width = scene.settings.width;
   options.height = scene.settings.height;
   options.passes = PassRange{0, 256};
+  options.plan.sampler = Sampler::random;  // independent samples tell their own error best
   Session session(device, packed, integrator, options);
   session.run({});
   const Image image = film_image(session.film(), true, false);

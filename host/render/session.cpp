@@ -14,15 +14,6 @@
 namespace pellucid {
 namespace {
 
-/// Mixes a 64-bit user seed into the word that kernels get (SplitMix64's finaliser), so that seeds
-/// 0, 1, 2 share nothing.
-uint hash_seed(std::uint64_t seed) {
-  seed += 0x9e3779b97f4a7c15ull;
-  seed = (seed ^ (seed >> 30)) * 0xbf58476d1ce4e5b9ull;
-  seed = (seed ^ (seed >> 27)) * 0x94d049bb133111ebull;
-  return static_cast<uint>((seed ^ (seed >> 31)) >> 32);
-}
-
 /// Time between two looks at signals and the clock.
 constexpr double batch_seconds = 0.2;
 /// A batch lasts at least so many times what moving its tiles costs.

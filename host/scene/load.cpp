@@ -25,6 +25,7 @@ RenderSettings parse_settings(const JsonNode& film_node, const JsonNode& integra
   if (static_cast<double>(settings.width) * settings.height > double(largest_film))
     fail(film_node, fmt::format("{} x {} pixels are too many; the most is {:.0f} in all",
                                 settings.width, settings.height, double(largest_film)));
+  settings.filter = find_pixel_filter(film.text("filter"));
   const ObjectReader integrator(integrator_node, object_spec("integrator"));
   if (integrator.has("name")) settings.integrator = integrator.text("name");
   if (integrator.has("spp")) settings.spp = integrator.integer("spp");

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "scene/pixel_filter.h"
+
 namespace pellucid {
 
 /// Largest coordinate and length; its inverse is the smallest length. The kernels' triangle test
@@ -143,6 +145,7 @@ struct Camera {
 /// What the scene file asks for; flags of the command line win over it.
 struct RenderSettings {
   int width = 512, height = 512;
+  PixelFilter filter = PixelFilter::gaussian;
   std::optional<int> spp;
   std::optional<int> max_depth;           ///< segments; absent = unlimited
   std::optional<std::string> integrator;  ///< a name from the table of integrators

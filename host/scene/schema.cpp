@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "scene/metals.h"
+#include "scene/pixel_filter.h"
 #include "scene/scene.h"
 
 namespace pellucid {
@@ -61,7 +62,7 @@ std::vector<ObjectSpec> scene_specs() {
            {"version", T::integer, required, {1, 1}, "version of the format"},
            {"description", T::text, optional, any, "why the scene is here"},
            {"camera", T::object, required, any, "pinhole camera"},
-           {"film", T::object, "{}", any, "size of the picture"},
+           {"film", T::object, "{}", any, "size and filter of the picture"},
            {"integrator", T::object, "{}", any, "method and effort; the command line wins"},
            {"materials", T::object, "{}", any, "materials by name"},
            {"shapes", T::array, "[]", any, "surfaces"},
@@ -82,10 +83,13 @@ std::vector<ObjectSpec> scene_specs() {
             {"x", "y", "smaller", "larger"}},
        }},
       {"film",
-       "size of the picture",
+       "size and filter of the picture",
        {
            {"width", T::integer, "512", {1, largest_side}, "pixels"},
            {"height", T::integer, "512", {1, largest_side}, "pixels"},
+           {"filter", T::choice, "\"gaussian\"", any,
+            "how samples around a pixel's centre count; the command line wins",
+            pixel_filter_names()},
        }},
       {"integrator",
        "method and effort",

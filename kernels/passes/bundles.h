@@ -10,6 +10,8 @@
 #define SCENE_PARAMS SCENE_BUFFERS(CONST_PARAM) const SceneInfo scene_info, const Camera camera,
 #define FILM_PARAMS FILM_BUFFERS(PARAM)
 #define SPLAT_PARAMS SPLAT_BUFFERS(PARAM)
+#define FILTER_PARAMS FILTER_BUFFERS(CONST_PARAM)
+#define AOV_PARAMS AOV_BUFFERS(PARAM)
 #define DIAG_PARAMS DIAG_BUFFERS(PARAM)
 
 #define SCENE_ASSIGN(T, name, meaning) scene_data.name = name;

@@ -22,6 +22,10 @@
   X(uint, texels, "linear colour as halfs [texels][2]: r + g 2^16, b")                         \
   X(Light, lights, "lights with their alias table [lights]")
 
+// Read only, made once by pack: the pixel filter.
+#define FILTER_BUFFERS(X) \
+  X(float, filter_table, "offsets from the pixel's centre (camera/filter.h) [FILTER_STEPS + 1]")
+
 // Read and written by the passes of an iteration.
 #define FILM_BUFFERS(X)                                                        \
   X(F4, samples, "radiance of this iteration, w: rays traced for it [pixels]") \
@@ -29,6 +33,8 @@
 
 #define SPLAT_BUFFERS(X) \
   X(uint, splats, "64-bit fixed point, low word first [pixels][3 channels][2 words]")
+
+#define AOV_BUFFERS(X) X(AovPixel, aovs, "what camera rays meet first [pixels]")
 
 #define DIAG_BUFFERS(X) X(uint, diag, "counters of what went wrong [DIAG_COUNT]")
 

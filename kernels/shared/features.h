@@ -36,6 +36,7 @@
   X(INTG_MIS, "emission found by chance and by NEE, weighted together")          \
   X(INTG_UNIFORM, "directions drawn uniformly, without importance sampling")     \
   X(INTG_SPLAT, "contributions splatted to any pixel")                           \
-  X(INTG_SOBOL, "Owen-scrambled Sobol points instead of random numbers")
+  X(INTG_SOBOL, "Owen-scrambled Sobol points instead of random numbers")         \
+  X(INTG_FILTER, "a pixel filter that is not the box")
 
 #endif

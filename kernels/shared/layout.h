@@ -198,4 +198,14 @@ typedef struct FilmPixel {
 } FilmPixel;
 LAYOUT_CHECK(FilmPixel, 192);
 
+/// What the camera sees first. Written by aov.
+typedef struct AovPixel {
+  F4 position;   // of the pixel's centre, world units; w: depth along the camera's axis
+  F4 normal;     // sum over iterations of unit shading normals; w unused
+  F4 geometric;  // the same of geometric normals
+  F4 albedo;     // sum over iterations; w unused
+  U4 id;         // of the pixel's centre: x shape, y material, or NONE; z w unused
+} AovPixel;
+LAYOUT_CHECK(AovPixel, 80);
+
 #endif

@@ -67,4 +67,10 @@
 /// points are independent from block to block only; random numbers are so in every iteration.
 #define SOBOL_BLOCK 16u
 
+/// Intervals of the table of pixel filter offsets (camera/filter.h).
+#define FILTER_STEPS 1024u
+
+/// Samples per pixel of the averaged AOVs: what a render has by default.
+#define AOV_ITERATIONS 64u
+
 #endif

@@ -4,7 +4,8 @@
 
 // clang-format off
 #define LAYOUT_STRUCTS(X) \
-  X(Triangle) X(Quadric) X(Shape) X(Material) X(Texture) X(Light) X(SceneInfo) X(Camera) X(Launch) X(FilmPixel)
+  X(Triangle) X(Quadric) X(Shape) X(Material) X(Texture) X(Light) X(SceneInfo) X(Camera) X(Launch) X(FilmPixel) \
+  X(AovPixel)
 
 #define LAYOUT_FIELDS(X)                                                                  \
   X(Triangle, shape)                                                                      \
@@ -16,7 +17,8 @@
   X(SceneInfo, center_radius) X(SceneInfo, root) X(SceneInfo, environment)                \
   X(Camera, corner) X(Camera, dx) X(Camera, dy) X(Camera, forward)                        \
   X(Launch, tile_width) X(Launch, max_depth) X(Launch, splat_scale) X(Launch, film_lsb)                           \
-  X(FilmPixel, block) X(FilmPixel, square) X(FilmPixel, count)
+  X(FilmPixel, block) X(FilmPixel, square) X(FilmPixel, count)                           \
+  X(AovPixel, normal) X(AovPixel, geometric) X(AovPixel, albedo) X(AovPixel, id)
 // clang-format on
 
 #endif

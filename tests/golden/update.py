@@ -54,7 +54,7 @@ def main():
             continue
         golden, fresh = HERE / f"{scene}.exr", HERE / f"{scene}.new.exr"
         subprocess.run([pellucid, "render", scene, "-i", method, "--size", size, "--spp", spp,
-                        "--seed", "1", "--aov", "variance,samples", "--strict", "--deterministic",
+                        "--seed", "1", "--sampler", "random", "--filter", "box", "--aov", "variance,samples", "--strict", "--deterministic",
                         "--quiet", "-o", fresh], check=True, stdout=subprocess.DEVNULL)
         print(f"{scene}: {method}, {spp} spp, {error_against(pellucid, fresh, golden)}", flush=True)
         fresh.replace(golden)

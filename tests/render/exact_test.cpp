@@ -21,6 +21,8 @@ Build build_of(const char* method) {
   Build b;
   b.method = method;
   b.width = b.height = 24;
+  b.sampler = Sampler::sobol;  // what the program does unless told otherwise
+  b.filter = PixelFilter::gaussian;
   return b;
 }
 

@@ -19,6 +19,7 @@ namespace {
 PackedScene pack(Scene scene, const Build& build) {
   scene.settings.width = build.width;
   scene.settings.height = build.height;
+  scene.settings.filter = build.filter;
   const int lanes = build.simd_width ? build.simd_width : simd_width_for(test_device().info());
   return pack_scene(scene, {lanes});
 }
@@ -26,6 +27,7 @@ PackedScene pack(Scene scene, const Build& build) {
 PlanOptions plan_options(const Build& build) {
   PlanOptions o;
   if (!build.specialised) o.extra_features = all_scene_features();
+  o.sampler = build.sampler;
   o.group = build.group;
   o.simd_builtins = build.simd_builtins;
   // Mutation tests point this at a copy of kernels/ with a planted fault.

@@ -32,7 +32,9 @@ struct Build {
   bool specialised = false;  ///< false: kernels hold all effects, so that tests share programs
   std::size_t group = 64;
   bool simd_builtins = true;
-  int simd_width = 0;  ///< 0: what the device prefers
+  int simd_width = 0;                 ///< 0: what the device prefers
+  Sampler sampler = Sampler::random;  ///< independent samples, as statistics want them
+  PixelFilter filter = PixelFilter::box;
 };
 
 /// Mean and variance of that mean.

@@ -36,3 +36,4 @@
 #ifndef INTG_SOBOL
 #define INTG_SOBOL 0
 #endif
+#define INTG_FILTER 0

@@ -24,6 +24,7 @@
 #undef FEAT_TEXTURE
 #undef FEAT_THIN_DIELECTRIC
 #undef FEAT_TRIANGLES
+#undef INTG_FILTER
 #undef INTG_MIS
 #undef INTG_NEE
 #undef INTG_SOBOL

@@ -137,7 +137,7 @@ TEST(TwinRng, NoTwoStreamsAreEqual) {
     for (uint iteration = 0; iteration < 32; ++iteration)
       for (uint dimension = 0; dimension < 32; ++dimension)
         for (uint seed = 0; seed < 8; ++seed) {
-          const U4 v = rng_words({path, iteration, seed}, dimension);
+          const U4 v = random_words({path, iteration, seed}, dimension);
           words.emplace_back(v.x, v.y, v.z, v.w);
         }
   const size_t count = words.size();

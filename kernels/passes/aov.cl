@@ -1,0 +1,56 @@
+// aov: what camera rays meet first, for compositing and denoising.
+// Reads: scene, filter. Writes: aovs [pixels], diag. Domain: pixels. Atomics: diag only. Next: the
+// next iteration, then the host divides the sums.
+// Flags: INTG_SOBOL, INTG_FILTER.
+#include "bsdf/albedo.h"
+#include "camera/camera.h"
+#include "camera/filter.h"
+#include "passes/bundles.h"
+#include "transport/vertex.h"
+
+/// Position, depth and ids of the ray through the pixel's centre: means over an edge would lie on
+/// no surface and name no object.
+INLINE AovPixel aov_of_centre(PRIVATE const SceneData* scene, Camera camera, uint column,
+                              uint row) {
+  AovPixel a;
+  a.position = (F4)(0.0f, 0.0f, 0.0f, INFINITY);
+  a.normal = a.geometric = a.albedo = (F4)(0.0f);
+  a.id = (U4)(NONE, NONE, 0u, 0u);
+  Ray ray = camera_ray(camera, (real)column + 0.5f, (real)row + 0.5f);
+  Hit hit = bvh_trace(scene, ray, 0);
+  if (hit.prim == NONE) return a;
+  Surface s = surface_at(scene, ray, hit);
+  a.position = (F4)(s.p, dot3(s.p - load3(camera.origin), load3(camera.forward)));
+  uint triangles = scene->info.triangle_count;
+  a.id.x = hit.prim < triangles ? scene->triangles[hit.prim].shape
+                                : scene->quadrics[hit.prim - triangles].shape;
+  a.id.y = s.material;
+  return a;
+}
+
+/// Adds one sample of normals (on the side that the camera sees) and colour.
+INLINE void aov_add(PRIVATE const SceneData* scene, Ray ray, PRIVATE AovPixel* a) {
+  Hit hit = bvh_trace(scene, ray, 0);
+  if (hit.prim == NONE) return;
+  Vertex v = vertex_at(scene, surface_at(scene, ray, hit), -ray.d, 0);
+  a->normal += (F4)(v.frame.n, 0.0f);
+  a->geometric += (F4)(v.surface.ng * v.side, 0.0f);
+  if (!v.black) a->albedo += (F4)(bsdf_albedo(v.material), 0.0f);
+}
+
+__kernel void aov(SCENE_PARAMS FILTER_PARAMS AOV_PARAMS DIAG_PARAMS const Launch launch) {
+  uint pixel = (uint)get_global_id(0);
+  if (pixel >= launch.tile_width * launch.tile_height) return;
+  SCENE_FROM_PARAMS
+  uint column = launch.tile_x + pixel % launch.tile_width;
+  uint row = launch.tile_y + pixel / launch.tile_width;
+  AovPixel a = aovs[pixel];
+  if (launch.iteration == 0u) a = aov_of_centre(&scene_data, camera, column, row);
+  Rng rng;
+  rng.path = row * launch.width + column;
+  rng.iteration = launch.iteration;
+  rng.seed = launch.seed;
+  FilmPosition at = film_position(filter_table, column, row, rng4(rng, DIM_PIXEL));
+  aov_add(&scene_data, camera_ray(camera, at.x, at.y), &a);
+  aovs[pixel] = a;
+}
