@@ -2,9 +2,9 @@
 // device.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/bench_report.h"
 #include "apps/command.h"
 #include "apps/common.h"
 #include "apps/scene_input.h"
@@ -12,6 +12,8 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "bench/ray_bench.h"
+#include "bench/sampler_bench.h"
+#include "integrators/registry.h"
 
 namespace pellucid {
 namespace {
@@ -21,71 +23,11 @@ struct BenchCommand {
   int repeats = 7;
 
   ExitCode run(const CommonOptions& common) const;
+
+ private:
+  ExitCode run_rays(const CommonOptions& common) const;
+  ExitCode run_sampler(const CommonOptions& common) const;
 };
-
-nlohmann::json number(const std::optional<Figure>& f) {
-  return f ? nlohmann::json(f->median) : nlohmann::json();
-}
-
-nlohmann::json as_json(const RayBench& bench, const DeviceInfo& device) {
-  using nlohmann::json;
-  json rays = json::array(), builds = json::array();
-  for (const RayCell& c : bench.rays)
-    rays.push_back({{"triangles", c.triangles},
-                    {"kind", ray_kind_name(c.kind)},
-                    {"mrays_per_s", c.mrays_per_s.median},
-                    {"mrays_per_s_iqr", c.mrays_per_s.iqr},
-                    {"embree_mrays_per_s", number(c.embree_mrays_per_s)},
-                    {"ratio", number(c.ratio)},
-                    {"embree_robust_mrays_per_s", number(c.embree_robust_mrays_per_s)},
-                    {"ratio_robust", number(c.ratio_robust)},
-                    {"differing_hits", c.differing_hits}});
-  for (const BuildCell& b : bench.builds)
-    builds.push_back({{"triangles", b.triangles},
-                      {"seconds", b.seconds},
-                      {"embree_seconds", b.embree_seconds ? json(*b.embree_seconds) : json()}});
-  return {{"workload", "rays-1"},
-          {"device", device.name},
-          {"driver", device.platform_name + " " + device.driver},
-          {"clock", bench.clock},
-          {"rays", rays},
-          {"build", builds}};
-}
-
-/// Geometric mean of a ratio over all cells, or 0 where there is none.
-double geometric_mean(const nlohmann::json& rays, const char* key) {
-  double sum = 0;
-  for (const auto& cell : rays) {
-    if (!cell[key].is_number()) return 0;
-    sum += std::log(cell[key].get<double>());
-  }
-  return rays.empty() ? 0 : std::exp(sum / double(rays.size()));
-}
-
-std::string as_text(const nlohmann::json& d) {
-  const auto text_of = [](const nlohmann::json& v, const char* format) {
-    return v.is_number() ? fmt::format(fmt::runtime(format), v.get<double>()) : std::string("-");
-  };
-  std::string text =
-      fmt::format("{} ({} time)\n{:>10} {:>9} {:>9} {:>9} {:>7} {:>9} {:>7} {:>9}\n",
-                  d["device"].get<std::string>(), d["clock"].get<std::string>(), "triangles",
-                  "kind", "Mrays/s", "Embree", "ratio", "robust", "ratio", "differing");
-  for (const auto& c : d["rays"])
-    text += fmt::format("{:>10} {:>9} {:>9.2f} {:>9} {:>7} {:>9} {:>7} {:>9}\n",
-                        c["triangles"].get<int>(), c["kind"].get<std::string>(),
-                        c["mrays_per_s"].get<double>(), text_of(c["embree_mrays_per_s"], "{:.2f}"),
-                        text_of(c["ratio"], "{:.2f}"),
-                        text_of(c["embree_robust_mrays_per_s"], "{:.2f}"),
-                        text_of(c["ratio_robust"], "{:.2f}"), c["differing_hits"].get<int>());
-  if (const double mean = geometric_mean(d["rays"], "ratio"); mean > 0)
-    text += fmt::format("geometric mean: {:.3f} of Embree, {:.3f} of its robust mode\n", mean,
-                        geometric_mean(d["rays"], "ratio_robust"));
-  for (const auto& b : d["build"])
-    text +=
-        fmt::format("build {:>10} triangles: {:.3f} s, Embree {} s\n", b["triangles"].get<int>(),
-                    b["seconds"].get<double>(), text_of(b["embree_seconds"], "{:.3f}"));
-  return text;
-}
 
 /// Cells slower than in the baseline by more than `allowed` (a fraction), or absent there; empty:
 /// the gate holds.
@@ -132,24 +74,27 @@ nlohmann::json read_baseline(const std::string& file) {
   return document;
 }
 
-ExitCode BenchCommand::run(const CommonOptions& common) const {
-  if (only != "rays")
-    throw UsageError("--only: there is no workload '" + only + "'; there is rays");
+std::vector<Scene> open_scenes(const std::vector<const char*>& names) {
+  std::vector<Scene> scenes;
+  for (const char* name : names) scenes.push_back(open_scene(name));
+  return scenes;
+}
+
+ExitCode BenchCommand::run_rays(const CommonOptions& common) const {
   const double allowed = parse_fraction("--fail-slower", fail_slower);
   if (allowed < 0 || allowed >= 1)
     throw UsageError("--fail-slower takes a share from 0% to below 100%, not '" + fail_slower +
                      "'");
   const nlohmann::json before = baseline.empty() ? nlohmann::json() : read_baseline(baseline);
   const Device target = Device::open(device);
-  std::vector<Scene> scenes;
-  for (const char* name : {"rays-1k", "rays-100k", "rays-1m"}) scenes.push_back(open_scene(name));
+  const std::vector<Scene> scenes = open_scenes({"rays-1k", "rays-100k", "rays-1m"});
   Progress progress("bench");
   RayBenchOptions options;
   options.repeats = repeats;
   options.plan.kernel_dir = kernel_dir;
   options.progress = [&](const std::string& text) { progress.update(text); };
-  const nlohmann::json document = as_json(bench_rays(target, scenes, options), target.info());
-  if (common.wants_text()) print_result(as_text(document));
+  const nlohmann::json document = rays_document(bench_rays(target, scenes, options), target.info());
+  if (common.wants_text()) print_result(rays_text(document));
   write_json(common.json, document);
   if (before.is_null()) return ExitCode::done;
   const std::vector<std::string> slower = slower_cells(document, before, allowed);
@@ -157,15 +102,41 @@ ExitCode BenchCommand::run(const CommonOptions& common) const {
   return slower.empty() ? ExitCode::done : ExitCode::gate_failed;
 }
 
+ExitCode BenchCommand::run_sampler(const CommonOptions& common) const {
+  if (!baseline.empty()) throw UsageError("--baseline is for --only rays");
+  std::vector<Scene> scenes =
+      open_scenes({"cornell-box", "four-balls-point", "four-balls-background", "veach-mis"});
+  const Device target = Device::open(device);
+  Progress progress("bench");
+  SamplerBenchOptions options;
+  options.repeats = repeats;
+  options.plan.kernel_dir = kernel_dir;
+  options.progress = [&](const std::string& text) { progress.update(text); };
+  const nlohmann::json document = sampler_document(
+      bench_samplers(target, std::move(scenes), find_integrator("path"), options), target.info());
+  if (common.wants_text()) print_result(sampler_text(document));
+  write_json(common.json, document);
+  return ExitCode::done;
+}
+
+ExitCode BenchCommand::run(const CommonOptions& common) const {
+  if (only == "rays") return run_rays(common);
+  if (only == "sampler") return run_sampler(common);
+  throw UsageError("--only: there is no workload '" + only + "'; there are rays, sampler." +
+                   did_you_mean(only, {"rays", "sampler"}));
+}
+
 }  // namespace
 
 CommandRun setup_bench(CLI::App& app) {
   auto c = std::make_shared<BenchCommand>();
-  app.add_option("--only", c->only, "which workload: rays")->type_name("WORKLOAD");
+  app.add_option("--only", c->only,
+                 "which workload: rays (default), or sampler: what Sobol points are worth")
+      ->type_name("WORKLOAD");
   app.add_option("--device", c->device, "OpenCL device")
       ->type_name("SPEC")
       ->envname("PELLUCID_DEVICE");
-  app.add_option("--repeats", c->repeats, "runs of each cell (default 7)")
+  app.add_option("--repeats", c->repeats, "runs of each cell, for sampler seeds (default 7)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--kernel-dir", c->kernel_dir, "read kernels from this folder")->type_name("DIR");
   app.add_option("--baseline", c->baseline, "an earlier --json result to compare with")

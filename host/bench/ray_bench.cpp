@@ -2,24 +2,17 @@
 #include "bench/ray_bench.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <thread>
 
 #include "base/error.h"
 #include "base/timer.h"
+#include "bench/clock.h"
 #include "bench/embree_rays.h"
 
 namespace pellucid {
 namespace {
-
-double cpu_seconds() {
-  rusage use{};
-  getrusage(RUSAGE_SELF, &use);
-  return double(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
-         1e-6 * double(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
-}
 
 Figure figure_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -28,19 +21,6 @@ Figure figure_of(std::vector<double> values) {
   };
   return {at(0.5), at(0.75) - at(0.25)};
 }
-
-/// On a CPU device, work per CPU second of this process times the cores used: other processes on
-/// the machine then disturb less. Elsewhere wall time.
-struct Clock {
-  bool cpu;
-  int cores;
-  template <typename F>
-  double operator()(F&& run) const {
-    const double before = cpu_seconds();
-    const double wall = run();
-    return cpu ? (cpu_seconds() - before) / cores : wall;
-  }
-};
 
 struct Contest {
   RayTracer& ours;

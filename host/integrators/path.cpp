@@ -4,8 +4,9 @@
 namespace pellucid {
 
 std::vector<Integrator> path_integrators() {
-  const std::vector<Pass> passes{{"pt_mega", {Bundle::scene, Bundle::filter, Bundle::film, Bundle::diag}},
-                                 {"film_add", {Bundle::film, Bundle::diag}}};
+  const std::vector<Pass> passes{
+      {"pt_mega", {Bundle::scene, Bundle::filter, Bundle::film, Bundle::diag}},
+      {"film_add", {Bundle::film, Bundle::diag}}};
   return {
       {"naive", "path tracing that finds light by chance only", {}, false, passes},
       {"nee",

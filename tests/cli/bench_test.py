@@ -6,6 +6,7 @@ Figures are not judged: a timed test would flake. What is judged is that they ar
 agree with Embree's where it is present.
 """
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -54,6 +55,21 @@ with tempfile.TemporaryDirectory() as folder:
     check(code == 3 and "baseline.json" in err, "no baseline", code, err)
     code, out, err = run("--baseline", str(baseline), "--fail-slower", "much")
     check(code == 2, "no number", code, err)
+    done = subprocess.run([PELLUCID, "bench", "--only", "sampler", "--repeats", "2", "--json", "-"],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=500)
+    check(done.returncode == 0, "exit code of the sampler workload", done.stderr)
+    cells = json.loads(done.stdout)["samplers"]
+    check(len(cells) == 12 and len({(c["scene"], c["spp"]) for c in cells}) == 12, "cells", cells)
+    for cell in cells:
+        check(cell["ns_per_path_random"] > 0 and cell["ns_per_path_sobol"] > 0, "time", cell)
+        ratio = cell["relmse_random"] / cell["relmse_sobol"]
+        check(abs(cell["gain_equal_spp"] / ratio - 1) < 1e-6, "gain is a ratio of errors", cell)
+    # Errors, unlike times, are the same in every run.
+    gain = math.prod(c["gain_equal_spp"] for c in cells) ** (1 / len(cells))
+    check(gain > 1.1, "sobol is worth something", gain, cells)
+    done = subprocess.run([PELLUCID, "bench", "--only", "sampler", "--baseline", str(baseline)],
+                          stderr=subprocess.PIPE, text=True)
+    check(done.returncode == 2 and "rays" in done.stderr, "a baseline is for rays", done.stderr)
     done = subprocess.run([PELLUCID, "bench", "--only", "everything"], stderr=subprocess.PIPE, text=True)
     check(done.returncode == 2 and "rays" in done.stderr, "no such workload", done.stderr)
 print(f"{len(failures)} checks failed" if failures else "all checks hold")

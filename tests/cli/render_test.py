@@ -3,6 +3,7 @@
 
 Usage: render_test.py path/to/pellucid   (exit 0: all checks hold)
 """
+import json
 import os
 import shutil
 import sys
@@ -10,8 +11,8 @@ import time
 
 sys.dont_write_bytecode = True
 # pylint: disable=wrong-import-position
-from harness import (HEIGHT, QUICK, SOURCE, WIDTH, check, document, expect, read_bytes, read_json,
-                     run_tests, same_pixels)
+from harness import (HEIGHT, QUICK, ROOM, SOURCE, WIDTH, check, document, expect, read_bytes, read_json,
+                     run_tests, same_pixels, write_text)
 
 METHODS = ("naive", "nee", "path", "reference")
 
@@ -96,7 +97,7 @@ def test_methods():
         check(close(stats[name]["mean"], stats["path"]["mean"], 0.05), f"{name} agrees",
               stats[name]["mean"], stats["path"]["mean"])
     expect(2, [*QUICK, "-i", "pth"], "'pth'", "naive", "reference", "Did you mean 'path'?")
-    depths = [stats_of("--max-depth", str(depth), "--spp", "64")["mean"] for depth in (1, 2, 3)]
+    depths = [stats_of("--max-depth", str(depth), "--spp", "256")["mean"] for depth in (1, 2, 3)]
     check(depths[0] < depths[1] < depths[2] < stats["path"]["mean"], "--max-depth", depths)
 
 
@@ -117,8 +118,54 @@ def test_aov():
     channels = document(["info", "aov.exr"])["channels"]
     check(channels == ["R", "G", "B", "variance.R", "variance.G", "variance.B", "samples"],
           "channels of --aov", channels)
+    everything = ["Z", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "Ng.X", "Ng.Y", "Ng.Z", "albedo.R",
+                  "albedo.G", "albedo.B", "id.object", "id.material"]
+    expect(0, [*QUICK, "--aov", "id.material,Z,P,N,Ng,albedo,id.object,samples", "-o", "all.exr"])
+    channels = document(["info", "all.exr"])["channels"]
+    check(channels == ["R", "G", "B", "samples", *everything], "names of the contract", channels)
+    check(same_pixels("aov.exr", "all.exr"), "AOVs change no colour")
+    expect(0, ["room.json", "--spp", "8", "-q", "--aov", "Z", "--aov", "N", "-o", "two.exr"])
+    channels = document(["info", "two.exr"])["channels"]
+    check(channels == ["R", "G", "B", "Z", "N.X", "N.Y", "N.Z"], "--aov twice", channels)
+    expect(2, [*QUICK, "--aov", "albdo"], "'albdo'", "Did you mean 'albedo'?", "id.object")
     expect(2, [*QUICK, "--aov", "varience"], "'varience'", "Did you mean 'variance'?")
     expect(2, [*QUICK, "--aov", "variance,nothing"], "'nothing'")
+
+
+def test_sampler_and_filter():
+    def settings(name):
+        return document(["info", name])["metadata"]["pellucid:settings"]
+
+    for sampler in ("sobol", "random"):
+        expect(0, [*QUICK, "--sampler", sampler, "-o", sampler + ".exr"])
+        check("filter gaussian sampler " + sampler in settings(sampler + ".exr"), "evidence of",
+              sampler)
+    filters = ("box", "tent", "gaussian", "blackman-harris")
+    for name in filters:
+        expect(0, [*QUICK, "--filter", name, "-o", name + ".exr"])
+        check(f"filter {name} sampler sobol" in settings(name + ".exr"), "evidence of", name)
+    for i, one in enumerate(filters):
+        for other in filters[:i]:
+            check(not same_pixels(one + ".exr", other + ".exr"), f"{one} is not {other}")
+    expect(0, [*QUICK, "-o", "default.exr"])
+    check(same_pixels("default.exr", "gaussian.exr"), "gaussian is the default filter")
+    check(same_pixels("default.exr", "sobol.exr"), "sobol is the default sampler")
+    check(not same_pixels("sobol.exr", "random.exr"), "random differs")
+
+    scene = {**ROOM, "film": {**ROOM["film"], "filter": "tent"}}
+    write_text("tents.json", json.dumps(scene))
+    expect(0, ["tents.json", "--spp", "4", "-q", "-o", "scene.exr"])
+    check(same_pixels("scene.exr", "tent.exr"), "the scene's filter")
+    expect(0, ["tents.json", "--spp", "4", "-q", "--filter", "box", "-o", "flag.exr"])
+    check(same_pixels("flag.exr", "box.exr"), "the flag wins over the scene")
+    scene["film"]["filter"] = "tents"
+    write_text("tents.json", json.dumps(scene))
+    expect(3, ["tents.json"], "film.filter", "Did you mean 'tent'?")
+    expect(2, [*QUICK, "--filter", "gausian"], "--filter", "Did you mean 'gaussian'?")
+    expect(2, [*QUICK, "--sampler", "sobl"], "--sampler", "Did you mean 'sobol'?")
+    out, _ = expect(0, ["render", "--help"])
+    for word in (*filters, "sobol", "random", "id.material", "albedo"):
+        check(word in out, f"--help tells of {word}")
 
 
 def test_features():

@@ -1,0 +1,20 @@
+// The benchmark's results: as documents for scripts, and from those as tables for people.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace pellucid {
+
+struct DeviceInfo;
+struct RayBench;
+struct SamplerCell;
+
+nlohmann::json rays_document(const RayBench& bench, const DeviceInfo& device);
+std::string rays_text(const nlohmann::json& document);
+
+nlohmann::json sampler_document(const std::vector<SamplerCell>& cells, const DeviceInfo& device);
+std::string sampler_text(const nlohmann::json& document);
+
+}  // namespace pellucid
