@@ -72,30 +72,35 @@ std::string aov_help() {
   return text;
 }
 
+/// Method, effort and where samples lie.
+void declare_sampling(CLI::App& app, RenderFlags& f) {
+  std::string methods;
+  for (const Integrator& i : integrators())
+    methods += fmt::format("{}{}: {}", methods.empty() ? "" : "; ", i.name, i.summary);
+  app.add_option("-i,--integrator", f.integrator, methods + ". Default: the scene's, else path")
+      ->type_name("NAME");
+  app.add_option("--mis", f.mis, "how `path` weighs its two strategies: balance, power or max")
+      ->type_name("RULE");
+  app.add_option("--spp", f.spp, "samples per pixel (default: the scene's, else 64)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));
+  app.add_option("--time", f.time,
+                 "stop after this long, e.g. 60s or 10m; with --spp, whichever is first")
+      ->type_name("DURATION");
+  app.add_option("--sampler", f.sampler,
+                 "sobol (default): scrambled Sobol points, less noise; random: independent numbers")
+      ->type_name("NAME");
+  app.add_option(
+         "--filter", f.filter,
+         "pixel filter: " + join(pixel_filter_names()) + " (default: the scene's, else gaussian)")
+      ->type_name("NAME");
+  app.add_option("--seed", f.seed, "random seed (default 0)")->check(whole_number);
+}
+
 }  // namespace
 
 void RenderFlags::declare(CLI::App& app) {
   app.add_option("SCENE", scene, "scene file (.json), or the name of a shipped scene")->required();
-  std::string methods;
-  for (const Integrator& i : integrators())
-    methods += fmt::format("{}{}: {}", methods.empty() ? "" : "; ", i.name, i.summary);
-  app.add_option("-i,--integrator", integrator, methods + ". Default: the scene's, else path")
-      ->type_name("NAME");
-  app.add_option("--mis", mis, "how `path` weighs its two strategies: balance, power or max")
-      ->type_name("RULE");
-  app.add_option("--spp", spp, "samples per pixel (default: the scene's, else 64)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));
-  app.add_option("--time", time,
-                 "stop after this long, e.g. 60s or 10m; with --spp, whichever is first")
-      ->type_name("DURATION");
-  app.add_option("--sampler", sampler,
-                 "sobol (default): scrambled Sobol points, less noise; random: independent numbers")
-      ->type_name("NAME");
-  app.add_option(
-         "--filter", filter,
-         "pixel filter: " + join(pixel_filter_names()) + " (default: the scene's, else gaussian)")
-      ->type_name("NAME");
-  app.add_option("--seed", seed, "random seed (default 0)")->check(whole_number);
+  declare_sampling(app, *this);
   app.add_option("--size", size, "image size in pixels, e.g. 640x480 (default: the scene's)")
       ->type_name("WxH");
   app.add_option("--crop", crop,

@@ -36,7 +36,7 @@ struct Subject {
 Run Subject::render(Sampler sampler, std::uint64_t spp, std::uint64_t seed) const {
   RenderOptions o;
   o.width = o.height = options.size;
-  o.spp = spp;
+  o.passes = PassRange{0, spp};
   o.seed = seed;
   if (scene.settings.max_depth) o.max_depth = uint(*scene.settings.max_depth);
   o.plan = options.plan;
@@ -47,9 +47,8 @@ Run Subject::render(Sampler sampler, std::uint64_t spp, std::uint64_t seed) cons
     session.run({});
     return session.render_seconds();
   });
-  const std::vector<FilmPixel> film = session.film();
-  run.rgb = film_image(film, o.width, o.height, false, false).data;
-  run.relmse_estimate = summarise(film).relmse;
+  run.rgb = film_image(session.film(), false, false).data;
+  run.relmse_estimate = summarise(session.film()).relmse;
   return run;
 }
 
