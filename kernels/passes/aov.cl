@@ -2,7 +2,6 @@
 // Reads: scene, filter. Writes: aovs [pixels], diag. Domain: pixels. Atomics: diag only. Next: the
 // next iteration, then the host divides the sums.
 // Flags: INTG_SOBOL, INTG_FILTER.
-#include "bsdf/albedo.h"
 #include "camera/camera.h"
 #include "camera/filter.h"
 #include "passes/bundles.h"
@@ -35,7 +34,8 @@ INLINE void aov_add(PRIVATE const SceneData* scene, Ray ray, PRIVATE AovPixel* a
   Vertex v = vertex_at(scene, surface_at(scene, ray, hit), -ray.d, 0);
   a->normal += (F4)(v.frame.n, 0.0f);
   a->geometric += (F4)(v.surface.ng * v.side, 0.0f);
-  if (!v.black) a->albedo += (F4)(bsdf_albedo(v.material), 0.0f);
+  if (!v.black)
+    a->albedo += (F4)(material_albedo(scene, v.material, v.context, &v.surface, v.side), 0.0f);
 }
 
 __kernel void aov(SCENE_PARAMS FILTER_PARAMS AOV_PARAMS DIAG_PARAMS const Launch launch) {

@@ -3,6 +3,7 @@
 #ifndef PELLUCID_TRANSPORT_MATERIAL_H
 #define PELLUCID_TRANSPORT_MATERIAL_H
 
+#include "bsdf/albedo.h"
 #include "bsdf/bsdf.h"
 #include "geom/surface.h"
 #include "geom/texture.h"
@@ -81,6 +82,21 @@ INLINE BsdfSample mix_sample(PRIVATE const SceneData* scene, Material m, BsdfCon
   return s;
 }
 #endif
+
+/// As bsdf_albedo, for any material.
+INLINE real3 material_albedo(PRIVATE const SceneData* scene, Material m, BsdfContext c,
+                             PRIVATE const Surface* surface, real side) {
+#if FEAT_MIX
+  real3 sum = REAL3(0.0f, 0.0f, 0.0f);
+  for (uint i = 0; i < mix_count(m); ++i) {
+    Material part = mix_part(scene, m, i, surface, side, &c);
+    sum += bsdf_albedo(part) * (real)part.weight;
+  }
+  return sum;
+#else
+  return bsdf_albedo(m);
+#endif
+}
 
 /// As bsdf_eval, for any material.
 INLINE BsdfEval material_eval(PRIVATE const SceneData* scene, Material m, BsdfContext c,

@@ -170,6 +170,8 @@ TEST(Aov, albedo_of_each_material) {
   metal.eta = Rgb(0.2, 0.5, 1.0), metal.k = Rgb(3.0, 2.0, 1.0);
   Material paint = named(MaterialKind::phong, Rgb(0.1, 0.2, 0.3));
   paint.specular = Rgb(0.4, 0.3, 0.2);
+  Material coated = named(MaterialKind::plastic, Rgb(0.0));
+  coated.ior = 1.5;
   const Material glass = named(MaterialKind::dielectric, Rgb(0));
   const auto fresnel = [](double eta, double k) {
     return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
@@ -178,6 +180,7 @@ TEST(Aov, albedo_of_each_material) {
       {metal, {fresnel(0.2, 3), fresnel(0.5, 2), fresnel(1, 1)}},
       {paint, Rgb(0.5)},
       {glass, Rgb(1.0)},
+      {coated, Rgb(0.04)},  // the coat alone: ((n-1)/(n+1))^2
   };
   for (const auto& [material, colour] : cases) {
     scene.materials[0] = material;

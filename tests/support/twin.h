@@ -33,7 +33,6 @@ FEATURES(TWIN_FEATURE_DEFINED)
 
 namespace TWIN_NAMESPACE {
 
-#include "bsdf/albedo.h"
 #include "camera/camera.h"
 #include "camera/filter.h"
 #include "film/film.h"
