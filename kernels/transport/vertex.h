@@ -60,7 +60,8 @@ INLINE BsdfEval vertex_eval(PRIVATE const SceneData* scene, PRIVATE const Vertex
 /// Draws a world direction by the BSDF. weight = 0 ends the walk.
 INLINE BsdfSample vertex_sample(PRIVATE const SceneData* scene, PRIVATE const Vertex* v, real lobe,
                                 real u1, real u2) {
-  BsdfSample s = material_sample(scene, v->material, v->context, &v->surface, v->side, lobe, u1, u2);
+  BsdfSample s =
+      material_sample(scene, v->material, v->context, &v->surface, v->side, lobe, u1, u2);
   if (is_black(s.weight)) return s;
   real3 wi = to_world(v->frame, s.wi);
   if (!vertex_sides_agree(v, wi, s.wi)) return bsdf_sample_none();
