@@ -16,12 +16,13 @@ namespace {
 
 struct KernelsCommand {
   std::string scene, integrator, device, features = "auto", kernel_dir, dump;
+  std::vector<std::string> overrides;
 
   ExitCode run(const CommonOptions& common) const;
 };
 
 ExitCode KernelsCommand::run(const CommonOptions& common) const {
-  const Scene s = open_scene(scene);
+  const Scene s = open_scene(scene, {overrides, {}});
   const Integrator& method = choose_integrator(integrator, s);
   PlanOptions options;
   options.extra_features = parse_feature_request(features);
@@ -65,7 +66,9 @@ ExitCode KernelsCommand::run(const CommonOptions& common) const {
 
 CommandRun setup_kernels(CLI::App& app) {
   auto c = std::make_shared<KernelsCommand>();
-  app.add_option("SCENE", c->scene, "scene file, or the name of a shipped scene")->required();
+  app.add_option("SCENE", c->scene, "scene file, model, or the name of a shipped scene")
+      ->required();
+  declare_overrides(app, c->overrides);
   app.add_option("-i,--integrator", c->integrator, "method (default: the scene's, else path)")
       ->type_name("NAME");
   app.add_option("--device", c->device, "OpenCL device")

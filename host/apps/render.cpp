@@ -61,9 +61,7 @@ void RenderJob::check_outputs() const {
 /// Loads the scene and settles what will be rendered.
 void RenderJob::prepare() {
   flags_.check();
-  scene_ = open_scene(flags_.scene);
-  if (!flags_.size.empty())
-    std::tie(scene_.settings.width, scene_.settings.height) = parse_size("--size", flags_.size);
+  scene_ = open_scene(flags_.scene, flags_.load_options());
   facts_.scene = &scene_;
   facts_.integrator = &choose_integrator(flags_.integrator, scene_);
   facts_.options = flags_.options(scene_, *facts_.integrator);

@@ -8,6 +8,7 @@
 
 #include "apps/common.h"
 #include "apps/outputs.h"
+#include "apps/scene_input.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "integrators/registry.h"
@@ -52,7 +53,10 @@ std::optional<PassRange> pass_range(const RenderFlags& flags, const Scene& scene
 }  // namespace
 
 void RenderFlags::declare(CLI::App& app) {
-  app.add_option("SCENE", scene, "scene file (.json), or the name of a shipped scene")->required();
+  app.add_option("SCENE", scene,
+                 "scene file (.json), model (.obj, .ply), or the name of a shipped scene")
+      ->required();
+  declare_overrides(app, overrides);
   std::string methods;
   for (const Integrator& i : integrators())
     methods += fmt::format("{}{}: {}", methods.empty() ? "" : "; ", i.name, i.summary);
@@ -115,6 +119,13 @@ void RenderFlags::declare(CLI::App& app) {
   app.add_flag("--strict", strict, "device counters and warnings are errors");
   app.add_flag("--deterministic", deterministic, "leave time, host and device out of the image");
   app.footer("Example: pellucid render cornell-box --spp 128 -o box.exr -o box.png");
+}
+
+LoadOptions RenderFlags::load_options() const {
+  LoadOptions o;
+  o.overrides = overrides;
+  if (!size.empty()) o.size = parse_size("--size", size);
+  return o;
 }
 
 RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) const {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/session.h"
-#include "scene/scene.h"
+#include "scene/load.h"
 
 namespace pellucid {
 
@@ -16,13 +16,14 @@ struct RenderFlags {
   std::string scene, integrator, mis = "balance", time, size, crop, passes, device,
                                  features = "auto", kernel_dir, stats, memory, checkpoint,
                                  every = "60s";
-  std::vector<std::string> outputs, aovs;
+  std::vector<std::string> overrides, outputs, aovs;
   std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0;
   bool strict = false, deterministic = false, resume = false;
 
   void declare(CLI::App& app);
   /// Throws UsageError for a value that no scene could make sense of.
   void check() const;
+  LoadOptions load_options() const;
   /// What the session is told. Throws UsageError.
   RenderOptions options(const Scene& scene, const Integrator& method) const;
   /// Seconds between two checkpoints.

@@ -131,7 +131,7 @@ ObjectReader::ObjectReader(const JsonNode& node, const ObjectSpec& spec)
   for (const JsonMember& member : node.members) {
     const auto found = std::find(keys.begin(), keys.end(), member.key);
     if (found == keys.end())
-      fail_at(*node.source, member.key_offset, node.path,
+      fail_at(*member.value.source, member.key_offset, node.path,
               fmt::format("unknown key \"{}\" in {}.{} Valid: {}", printable(member.key), spec.name,
                           did_you_mean(printable(member.key), keys), list_choices(keys)));
     check_value(member.value, spec.fields[static_cast<std::size_t>(found - keys.begin())]);
