@@ -7,6 +7,7 @@
 
 #include "apps/command.h"
 #include "apps/common.h"
+#include "apps/device_input.h"
 #include "apps/scene_input.h"
 #include "base/files.h"
 #include "base/log.h"
@@ -17,7 +18,8 @@ namespace pellucid {
 namespace {
 
 struct BenchCommand {
-  std::string only = "rays", device, baseline, fail_slower = "10%", kernel_dir;
+  std::string only = "rays", baseline, fail_slower = "10%", kernel_dir;
+  DeviceFlags device;
   int repeats = 7;
 
   ExitCode run(const CommonOptions& common) const;
@@ -135,12 +137,13 @@ nlohmann::json read_baseline(const std::string& file) {
 ExitCode BenchCommand::run(const CommonOptions& common) const {
   if (only != "rays")
     throw UsageError("--only: there is no workload '" + only + "'; there is rays");
+  device.limit();
   const double allowed = parse_fraction("--fail-slower", fail_slower);
   if (allowed < 0 || allowed >= 1)
     throw UsageError("--fail-slower takes a share from 0% to below 100%, not '" + fail_slower +
                      "'");
   const nlohmann::json before = baseline.empty() ? nlohmann::json() : read_baseline(baseline);
-  const Device target = Device::open(device);
+  const Device target = device.open();
   std::vector<Scene> scenes;
   for (const char* name : {"rays-1k", "rays-100k", "rays-1m"}) scenes.push_back(open_scene(name));
   Progress progress("bench");
@@ -162,9 +165,8 @@ ExitCode BenchCommand::run(const CommonOptions& common) const {
 CommandRun setup_bench(CLI::App& app) {
   auto c = std::make_shared<BenchCommand>();
   app.add_option("--only", c->only, "which workload: rays")->type_name("WORKLOAD");
-  app.add_option("--device", c->device, "OpenCL device")
-      ->type_name("SPEC")
-      ->envname("PELLUCID_DEVICE");
+  c->device.declare(app);
+  c->device.declare_threads(app);
   app.add_option("--repeats", c->repeats, "runs of each cell (default 7)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--kernel-dir", c->kernel_dir, "read kernels from this folder")->type_name("DIR");

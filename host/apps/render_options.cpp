@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "apps/common.h"
@@ -100,9 +101,16 @@ void RenderFlags::declare(CLI::App& app) {
          "render the global passes A to B-1 only, so that several runs share the work of one "
          "(see `merge`); a pass is one sample per pixel")
       ->type_name("A:B");
-  app.add_option("--device", device, "OpenCL device: index as in `devices`, or part of its name")
-      ->type_name("SPEC")
-      ->envname("PELLUCID_DEVICE");
+  app.add_option("--exposure", exposure,
+                 "brighter by so many stops (negative: darker); display pictures only")
+      ->type_name("EV");
+  app.add_option(
+         "--tonemap", tonemap,
+         "curve of display pictures: the sRGB one alone, filmic highlights before it, or none "
+         "(linear values, clipped)")
+      ->type_name("srgb|filmic|none");
+  device.declare(app);
+  device.declare_threads(app);
   app.add_option(
          "--features", features,
          "what kernels hold: auto (what the scene needs), all, or a list like +phong,+disks")
@@ -118,6 +126,8 @@ void RenderFlags::declare(CLI::App& app) {
   app.add_option("--stats", stats, "write statistics of the render as JSON")->type_name("FILE");
   app.add_flag("--strict", strict, "device counters and warnings are errors");
   app.add_flag("--deterministic", deterministic, "leave time, host and device out of the image");
+  app.add_flag("--dry-run", dry_run,
+               "tell what would be rendered, and whether it could be, without doing it");
   app.footer("Example: pellucid render cornell-box --spp 128 -o box.exr -o box.png");
 }
 
@@ -146,6 +156,16 @@ RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) con
   return o;
 }
 
+DisplayTransform RenderFlags::display() const {
+  constexpr double most = 100;  // 2^100 is beyond the range between float's black and white
+  DisplayTransform d;
+  d.curve = parse_tone_curve("--tonemap", tonemap);
+  if (!exposure.empty()) d.exposure = parse_number("--exposure", exposure);
+  if (std::abs(d.exposure) > most)
+    throw UsageError(fmt::format("--exposure takes stops from -100 to 100, not '{}'", exposure));
+  return d;
+}
+
 std::vector<std::string> RenderFlags::output_names(const Scene& s) const {
   if (outputs.empty()) return {s.name + ".exr", s.name + ".png"};
   check_picture_types(outputs);
@@ -163,6 +183,7 @@ void RenderFlags::check() const {
     if (aov != "variance" && aov != "samples")
       throw UsageError("--aov: there is no '" + aov + "'; there are variance, samples." +
                        did_you_mean(aov, {"variance", "samples"}));
+  display();
 }
 
 }  // namespace pellucid
