@@ -72,10 +72,10 @@ CommandRun setup_kernels(CLI::App& app) {
       ->required();
   declare_overrides(app, c->overrides);
   app.add_option("-i,--integrator", c->integrator, "method (default: the scene's, else path)")
-      ->type_name("NAME");
+      ->type_name(integrator_names());
   c->device.declare(app);
   app.add_option("--features", c->features, "auto, all, or a list like +phong,+disks")
-      ->type_name("LIST");
+      ->type_name("auto|all|LIST");
   app.add_option("--kernel-dir", c->kernel_dir, "read kernels from this folder")->type_name("DIR");
   app.add_option("--dump", c->dump,
                  "write each program's exact source and options into this folder")

@@ -61,10 +61,11 @@ void RenderFlags::declare(CLI::App& app) {
   std::string methods;
   for (const Integrator& i : integrators())
     methods += fmt::format("{}{}: {}", methods.empty() ? "" : "; ", i.name, i.summary);
-  app.add_option("-i,--integrator", integrator, methods + ". Default: the scene's, else path")
-      ->type_name("NAME");
-  app.add_option("--mis", mis, "how `path` weighs its two strategies: balance, power or max")
-      ->type_name("RULE");
+  app.add_option("-i,--integrator", integrator,
+                 "the method (default: the scene's, else path). " + methods)
+      ->type_name(integrator_names());
+  app.add_option("--mis", mis, "how `path` weighs its two strategies (default balance)")
+      ->type_name("balance|power|max");
   app.add_option("--spp", spp, "samples per pixel (default: the scene's, else 64)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));
   app.add_option("--time", time,
@@ -114,7 +115,7 @@ void RenderFlags::declare(CLI::App& app) {
   app.add_option(
          "--features", features,
          "what kernels hold: auto (what the scene needs), all, or a list like +phong,+disks")
-      ->type_name("LIST");
+      ->type_name("auto|all|LIST");
   app.add_option("--work-group", group,
                  "work-items per group; changes speed, never the image (default 64)")
       ->check(CLI::Range(1, 4096));

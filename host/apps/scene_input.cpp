@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "integrators/registry.h"
 
 namespace pellucid {
@@ -22,10 +23,7 @@ std::vector<std::string> scene_folders() {
   const std::string program = executable_path();
   const std::string installed =
       program.substr(0, program.rfind('/') + 1) + "../share/pellucid/scenes";
-  std::vector<std::string> folders;
-  for (const std::string& folder : {installed, std::string(PELLUCID_SCENE_DIR)})
-    if (is_folder(folder)) folders.push_back(folder);
-  return folders;
+  return {is_folder(installed) ? installed : PELLUCID_SCENE_DIR};
 }
 
 }  // namespace
@@ -47,6 +45,12 @@ Scene open_scene(const std::string& path_or_name, const LoadOptions& options) {
   for (const std::string& note : scene.notes) log_info("{}", note);
   for (const std::string& warning : scene.warnings) log_warn("{}", warning);
   return scene;
+}
+
+std::string integrator_names() {
+  std::vector<std::string> names;
+  for (const Integrator& integrator : integrators()) names.push_back(integrator.name);
+  return join(names, "|");
 }
 
 const Integrator& choose_integrator(const std::string& flag, const Scene& scene) {

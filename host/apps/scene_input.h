@@ -20,6 +20,9 @@ Scene open_scene(const std::string& path_or_name, const LoadOptions& options = {
 /// Names of the shipped scenes, sorted.
 std::vector<std::string> shipped_scenes();
 
+/// All methods as "naive|nee|...", the form of a choice in --help.
+std::string integrator_names();
+
 /// The method by flag, else the scene's, else the default. Throws UsageError or InputError that
 /// lists the names.
 const Integrator& choose_integrator(const std::string& flag, const Scene& scene);

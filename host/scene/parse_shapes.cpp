@@ -123,7 +123,6 @@ RawMesh parse_rectangle(const ObjectReader& reader) {
   if (reader.has("size")) fail(reader.place("size"), "goes with \"center\", not \"corner\"");
   if (!reader.has("edges")) fail(reader.node(), "\"corner\" needs \"edges\" beside it");
   const JsonNode& edges = reader.place("edges");
-  if (edges.items.size() != 2) fail(edges, "two edges are needed: [[x, y, z], [x, y, z]]");
   constexpr Range coordinate{-largest_length, largest_length};
   return make_rectangle(reader.vector("corner"), read_vector(edges.items[0], coordinate),
                         read_vector(edges.items[1], coordinate));

@@ -26,8 +26,13 @@ Fields join(Fields own, const Fields& shared) {
   return own;
 }
 
-const Fields transform_field = {
-    {"transform", T::array, optional, any, "steps, applied in the order written"}};
+const Fields transform_field = {{"transform",
+                                 T::array,
+                                 optional,
+                                 any,
+                                 "steps, applied in the order written",
+                                 {},
+                                 "transform step"}};
 
 Fields shape_fields(bool can_flip) {
   Fields fields = {
@@ -36,7 +41,7 @@ Fields shape_fields(bool can_flip) {
       {"material", T::text, optional, any, "a name from \"materials\""},
       transform_field[0],
       {"sides", T::integer, "2", {1, 2}, "1: black, but blocking, from behind (opaque materials)"},
-      {"emission", T::object, optional, any, "makes the surface a light"},
+      {"emission", T::object, optional, any, "makes the surface a light", {}, "emission"},
   };
   if (can_flip)
     fields.push_back({"flip", T::boolean, "false", any, "turns the front side to the back"});
@@ -58,14 +63,22 @@ std::vector<ObjectSpec> scene_specs() {
       {"scene",
        "a scene file",
        {
+           {"$schema", T::text, optional, any,
+            "for editors: where the JSON schema of this format is"},
            {"version", T::integer, required, {1, 1}, "version of the format"},
            {"description", T::text, optional, any, "why the scene is here"},
-           {"camera", T::object, required, any, "pinhole camera"},
-           {"film", T::object, "{}", any, "size of the picture"},
-           {"integrator", T::object, "{}", any, "method and effort; the command line wins"},
-           {"materials", T::object, "{}", any, "materials by name"},
-           {"shapes", T::array, "[]", any, "surfaces"},
-           {"lights", T::array, "[]", any, "lights without a surface"},
+           {"camera", T::object, required, any, "pinhole camera", {}, "camera"},
+           {"film", T::object, "{}", any, "size of the picture", {}, "film"},
+           {"integrator",
+            T::object,
+            "{}",
+            any,
+            "method and effort; the command line wins",
+            {},
+            "integrator"},
+           {"materials", T::map, "{}", any, "materials by name", {}, "material/"},
+           {"shapes", T::array, "[]", any, "surfaces", {}, "shape/"},
+           {"lights", T::array, "[]", any, "lights without a surface", {}, "light/"},
        }},
       {"camera",
        "pinhole camera",
@@ -110,7 +123,13 @@ std::vector<ObjectSpec> part_specs() {
        "exactly one of the keys",
        {
            {"translate", T::vector, optional, coordinate, "moves"},
-           {"rotate", T::object, optional, any, "turns about an axis through the origin"},
+           {"rotate",
+            T::object,
+            optional,
+            any,
+            "turns about an axis through the origin",
+            {},
+            "rotate"},
            {"scale", T::scale, optional, coordinate, "scales, per axis or alike; negative mirrors"},
            {"matrix", T::matrix, optional, coordinate, "4x4, row by row; last row 0 0 0 1"},
        }},
@@ -235,7 +254,8 @@ std::vector<ObjectSpec> solid_specs() {
             shape_fields(true))},
       {"shape/rectangle", "by corner and edges, or by center and size",
        join({{"corner", T::vector, optional, coordinate, "one corner"},
-             {"edges", T::array, optional, any, "the two edges from it; front side = e0 x e1"},
+             {"edges", T::edges, optional, coordinate,
+              "the two edges from it; front side = e0 x e1"},
              {"center", T::vector, optional, coordinate, "middle; lies in the xy plane, facing +z"},
              {"size", T::pair, optional, length, "extent along x and y"}},
             shape_fields(true))},
