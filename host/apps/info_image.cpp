@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/command.h"
 #include "apps/common.h"
 #include "apps/info_parts.h"
 #include "image/image.h"

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/command.h"
 #include "apps/common.h"
 #include "apps/info_parts.h"
 #include "apps/scene_input.h"
@@ -11,6 +12,7 @@
 #include "integrators/reach.h"
 #include "integrators/registry.h"
 #include "render/memory.h"
+#include "render/specialise.h"
 
 namespace pellucid {
 namespace {

@@ -241,8 +241,8 @@ std::vector<ObjectSpec> blend_specs() {
 std::vector<ObjectSpec> solid_specs() {
   const Field center{"center", T::vector, "[0, 0, 0]", coordinate, "middle"};
   return {
-      {"shape/mesh", "triangles from an OBJ file",
-       join({{"file", T::text, required, any, "OBJ file, relative to the scene file"},
+      {"shape/mesh", "triangles from an OBJ or PLY file",
+       join({{"file", T::text, required, any, "OBJ or PLY file, relative to the scene file"},
              {"smooth", T::boolean, "true", any, "use the file's normals, where it has them"}},
             shape_fields(true))},
       {"shape/sphere", "exact sphere, front side outwards",
