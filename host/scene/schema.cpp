@@ -164,7 +164,8 @@ std::vector<ObjectSpec> part_specs() {
 
 std::vector<ObjectSpec> material_specs() {
   const Field reflectance{"reflectance", T::color, "0.5", unit, "share of light sent back"};
-  const Field texture{"texture", T::object, optional, any, "image that multiplies it"};
+  const Field texture{"texture", T::object, optional, any, "image that multiplies it",
+                      {},        "texture"};
   const Fields width = {
       {"roughness", T::number, optional, unit, "alpha = roughness^2; absent: smooth"},
       {"alpha", T::number, optional, unit, "GGX width; instead of roughness"},
@@ -208,7 +209,13 @@ std::vector<ObjectSpec> material_specs() {
        {
            type_field,
            {"diffuse", T::color, "0.5", unit, "share of the diffuse part"},
-           {"texture", T::object, optional, any, "image that multiplies the diffuse part"},
+           {"texture",
+            T::object,
+            optional,
+            any,
+            "image that multiplies the diffuse part",
+            {},
+            "texture"},
            {"specular", T::color, "0.2", unit, "share of the glossy part at normal incidence"},
            {"exponent", T::number, "50", {0, 1e6}, "sharpness of the glossy part"},
        }},
