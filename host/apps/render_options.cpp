@@ -81,6 +81,30 @@ void RenderFlags::declare(CLI::App& app) {
                  "longest path in segments, an emitter seen directly has 1 (default: the scene's, "
                  "else unlimited)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xfffffffe}));
+  declare_files(app);
+  device.declare(app);
+  device.declare_threads(app);
+  app.add_option(
+         "--features", features,
+         "what kernels hold: auto (what the scene needs), all, or a list like +phong,+disks")
+      ->type_name("auto|all|LIST");
+  app.add_option("--work-group", group,
+                 "work-items per group; changes speed, never the image (default 64)")
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--memory", memory,
+                 "most device memory to use, e.g. 2G; larger pictures are rendered in bands")
+      ->type_name("BYTES");
+  app.add_option("--kernel-dir", kernel_dir, "read kernels from this folder instead of the program")
+      ->type_name("DIR");
+  app.add_option("--stats", stats, "write statistics of the render as JSON")->type_name("FILE");
+  app.add_flag("--strict", strict, "device counters and warnings are errors");
+  app.add_flag("--deterministic", deterministic, "leave time, host and device out of the image");
+  app.add_flag("--dry-run", dry_run,
+               "tell what would be rendered, and whether it could be, without doing it");
+  app.footer("Example: pellucid render cornell-box --spp 128 -o box.exr -o box.png");
+}
+
+void RenderFlags::declare_files(CLI::App& app) {
   app.add_option(
          "-o,--output", outputs,
          "picture to write, type by suffix; repeatable (default: SCENE.exr and SCENE.png here)")
@@ -110,26 +134,6 @@ void RenderFlags::declare(CLI::App& app) {
          "curve of display pictures: the sRGB one alone, filmic highlights before it, or none "
          "(linear values, clipped)")
       ->type_name("srgb|filmic|none");
-  device.declare(app);
-  device.declare_threads(app);
-  app.add_option(
-         "--features", features,
-         "what kernels hold: auto (what the scene needs), all, or a list like +phong,+disks")
-      ->type_name("auto|all|LIST");
-  app.add_option("--work-group", group,
-                 "work-items per group; changes speed, never the image (default 64)")
-      ->check(CLI::Range(1, 4096));
-  app.add_option("--memory", memory,
-                 "most device memory to use, e.g. 2G; larger pictures are rendered in bands")
-      ->type_name("BYTES");
-  app.add_option("--kernel-dir", kernel_dir, "read kernels from this folder instead of the program")
-      ->type_name("DIR");
-  app.add_option("--stats", stats, "write statistics of the render as JSON")->type_name("FILE");
-  app.add_flag("--strict", strict, "device counters and warnings are errors");
-  app.add_flag("--deterministic", deterministic, "leave time, host and device out of the image");
-  app.add_flag("--dry-run", dry_run,
-               "tell what would be rendered, and whether it could be, without doing it");
-  app.footer("Example: pellucid render cornell-box --spp 128 -o box.exr -o box.png");
 }
 
 LoadOptions RenderFlags::load_options() const {

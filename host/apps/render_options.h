@@ -35,6 +35,9 @@ struct RenderFlags {
   DisplayTransform display() const;
   /// Pictures to write; the default ones are named after the scene.
   std::vector<std::string> output_names(const Scene& scene) const;
+
+ private:
+  void declare_files(CLI::App& app);  ///< pictures and checkpoints
 };
 
 }  // namespace pellucid
