@@ -24,12 +24,23 @@ const char* kind_of(const Material& material) {
       return "conductor";
     case MaterialKind::phong:
       return "phong";
+    case MaterialKind::oren_nayar:
+      return "oren-nayar";
+    case MaterialKind::plastic:
+      return "plastic";
+    case MaterialKind::thin_dielectric:
+      return "thin-dielectric";
+    case MaterialKind::mix:
+      return "mix";
   }
   throw InternalError("unknown kind of material");
 }
 
 const char* kind_of(const PointLight&) {
   return "point";
+}
+const char* kind_of(const SpotLight&) {
+  return "spot";
 }
 const char* kind_of(const DirectionalLight&) {
   return "directional";

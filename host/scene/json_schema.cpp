@@ -73,6 +73,8 @@ Json value_rule(const Field& field) {
       return list_of(number(field.range), 16);
     case FieldType::edges:
       return list_of(list_of(number(field.range), 3), 2);
+    case FieldType::names:
+      return list_of({{"type", "string"}, {"minLength", 1}}, 2);
     case FieldType::object:
       return reference(field);
     case FieldType::map:

@@ -120,6 +120,7 @@ void check_value(const JsonNode& node, const Field& field) {
     case FieldType::object:
     case FieldType::map:
       return expect_kind(node, Kind::object, "an object");
+    case FieldType::names:
     case FieldType::array:
       return expect_kind(node, Kind::array, "a list");
   }

@@ -229,7 +229,7 @@ std::vector<ObjectSpec> blend_specs() {
        "weighted sum of two materials",
        {
            type_field,
-           {"materials", T::array, required, any, "two names from \"materials\""},
+           {"materials", T::names, required, any, "two names from \"materials\""},
            {"amount", T::number, "0.5", unit, "weight of the second; the first has the rest"},
        }},
       {"material/principled",

@@ -18,6 +18,7 @@ enum class FieldType {
   color,   ///< [r,g,b] linear Rec.709, one number (grey), or {"srgb": [r,g,b]}
   matrix,  ///< 16 numbers, row by row, for column vectors
   edges,   ///< two vectors
+  names,   ///< two texts
   object,  ///< of the kind Field::of
   map,     ///< an object whose keys are names, and whose values are of the kind Field::of
   array,   ///< a list of objects of the kind Field::of
