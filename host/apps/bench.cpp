@@ -7,6 +7,7 @@
 #include "apps/bench_report.h"
 #include "apps/command.h"
 #include "apps/common.h"
+#include "apps/device_input.h"
 #include "apps/scene_input.h"
 #include "base/files.h"
 #include "base/log.h"
@@ -19,7 +20,8 @@ namespace pellucid {
 namespace {
 
 struct BenchCommand {
-  std::string only = "rays", device, baseline, fail_slower = "10%", kernel_dir;
+  std::string only = "rays", baseline, fail_slower = "10%", kernel_dir;
+  DeviceFlags device;
   int repeats = 7;
 
   ExitCode run(const CommonOptions& common) const;
@@ -86,7 +88,7 @@ ExitCode BenchCommand::run_rays(const CommonOptions& common) const {
     throw UsageError("--fail-slower takes a share from 0% to below 100%, not '" + fail_slower +
                      "'");
   const nlohmann::json before = baseline.empty() ? nlohmann::json() : read_baseline(baseline);
-  const Device target = Device::open(device);
+  const Device target = device.open();
   const std::vector<Scene> scenes = open_scenes({"rays-1k", "rays-100k", "rays-1m"});
   Progress progress("bench");
   RayBenchOptions options;
@@ -106,7 +108,7 @@ ExitCode BenchCommand::run_sampler(const CommonOptions& common) const {
   if (!baseline.empty()) throw UsageError("--baseline is for --only rays");
   std::vector<Scene> scenes =
       open_scenes({"cornell-box", "four-balls-point", "four-balls-background", "veach-mis"});
-  const Device target = Device::open(device);
+  const Device target = device.open();
   Progress progress("bench");
   SamplerBenchOptions options;
   options.repeats = repeats;
@@ -132,10 +134,9 @@ CommandRun setup_bench(CLI::App& app) {
   auto c = std::make_shared<BenchCommand>();
   app.add_option("--only", c->only,
                  "which workload: rays (default), or sampler: what Sobol points are worth")
-      ->type_name("WORKLOAD");
-  app.add_option("--device", c->device, "OpenCL device")
-      ->type_name("SPEC")
-      ->envname("PELLUCID_DEVICE");
+      ->type_name("rays|sampler");
+  c->device.declare(app);
+  c->device.declare_threads(app);
   app.add_option("--repeats", c->repeats, "runs of each cell, for sampler seeds (default 7)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--kernel-dir", c->kernel_dir, "read kernels from this folder")->type_name("DIR");

@@ -152,9 +152,10 @@ CommandRun setup_compare(CLI::App& app) {
                  "mse, rmse, relmse, smape, p95_tile_relmse, energy_ratio (distance from 1)")
       ->allow_extra_args(false);
   app.add_option(
-      "-o,--output", options->diff,
-      "map of the relative error per pixel: false colours (0.001 black, 0.01 blue, "
-      "0.1 red, 1 yellow, 10 white; not finite: green), or the numbers if it ends in .exr");
+         "-o,--output", options->diff,
+         "map of the relative error per pixel: false colours (0.001 black, 0.01 blue, "
+         "0.1 red, 1 yellow, 10 white; not finite: green), or the numbers if it ends in .exr")
+      ->type_name("FILE");
   app.footer(
       "Both images need the same size. Pixels that are NaN or Inf are counted first; any such "
       "pixel\n"

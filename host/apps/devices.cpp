@@ -24,16 +24,19 @@ nlohmann::json as_json(const DeviceInfo& d) {
           {"int64_atomics", d.int64_atomics},
           {"memory_bytes", d.memory},
           {"max_buffer_bytes", d.max_buffer},
+          {"compute_units", d.compute_units},
           {"native_float_width", d.native_float_width},
           {"unusable", d.unusable}};
 }
 
 std::string as_text(const DeviceInfo& d) {
   return fmt::format(
-      "{}  {}\n     {}, driver {}, {}; memory {}, one buffer at most {}; fp64 {}, 64-bit atomics "
+      "{}  {}\n     {}, driver {}, {}; {} compute units, memory {}, one buffer at most {}; fp64 "
+      "{}, 64-bit atomics "
       "{}\n{}",
-      d.spec(), d.name, d.platform_name, d.driver, d.vendor, format_bytes(d.memory),
-      format_bytes(d.max_buffer), d.fp64 ? "yes" : "no", d.int64_atomics ? "yes" : "no",
+      d.spec(), d.name, d.platform_name, d.driver, d.vendor, d.compute_units,
+      format_bytes(d.memory), format_bytes(d.max_buffer), d.fp64 ? "yes" : "no",
+      d.int64_atomics ? "yes" : "no",
       d.unusable.empty() ? "" : fmt::format("     cannot be used: {}\n", d.unusable));
 }
 

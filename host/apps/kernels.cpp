@@ -7,6 +7,7 @@
 
 #include "apps/command.h"
 #include "apps/common.h"
+#include "apps/device_input.h"
 #include "apps/scene_input.h"
 #include "base/files.h"
 #include "render/plan.h"
@@ -15,17 +16,19 @@ namespace pellucid {
 namespace {
 
 struct KernelsCommand {
-  std::string scene, integrator, device, features = "auto", kernel_dir, dump;
+  std::string scene, integrator, features = "auto", kernel_dir, dump;
+  std::vector<std::string> overrides;
+  DeviceFlags device;
 
   ExitCode run(const CommonOptions& common) const;
 };
 
 ExitCode KernelsCommand::run(const CommonOptions& common) const {
-  const Scene s = open_scene(scene);
+  const Scene s = open_scene(scene, {overrides, {}});
   const Integrator& method = choose_integrator(integrator, s);
   PlanOptions options;
   options.extra_features = parse_feature_request(features);
-  const Device target = Device::open(device);
+  const Device target = device.open();
   const PackedScene packed = pack_scene(s, {simd_width_for(target.info())});
   const Specialisation special = specialise(packed, method, target.info(), options);
   const std::string prelude = prelude_of(special), build_options = options_of(special);
@@ -65,14 +68,14 @@ ExitCode KernelsCommand::run(const CommonOptions& common) const {
 
 CommandRun setup_kernels(CLI::App& app) {
   auto c = std::make_shared<KernelsCommand>();
-  app.add_option("SCENE", c->scene, "scene file, or the name of a shipped scene")->required();
+  app.add_option("SCENE", c->scene, "scene file, model, or the name of a shipped scene")
+      ->required();
+  declare_overrides(app, c->overrides);
   app.add_option("-i,--integrator", c->integrator, "method (default: the scene's, else path)")
-      ->type_name("NAME");
-  app.add_option("--device", c->device, "OpenCL device")
-      ->type_name("SPEC")
-      ->envname("PELLUCID_DEVICE");
+      ->type_name(integrator_names());
+  c->device.declare(app);
   app.add_option("--features", c->features, "auto, all, or a list like +phong,+disks")
-      ->type_name("LIST");
+      ->type_name("auto|all|LIST");
   app.add_option("--kernel-dir", c->kernel_dir, "read kernels from this folder")->type_name("DIR");
   app.add_option("--dump", c->dump,
                  "write each program's exact source and options into this folder")

@@ -21,7 +21,9 @@
   X(compare, "error of image A against reference B, with gates for scripts") \
   X(bench, "speed of this device, beside Embree where present")              \
   X(merge, "checkpoints of disjoint passes to one picture")                  \
-  X(kernels, "the specialised programs for a scene and method")
+  X(kernels, "the specialised programs for a scene and method")              \
+  X(schema, "the scene format as a JSON schema")                             \
+  X(completion, "completion of command lines for a shell")
 
 namespace pellucid {
 

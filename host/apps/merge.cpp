@@ -72,7 +72,7 @@ ExitCode merge(const MergeFlags& flags, const CommonOptions& common) {
   Checkpoint all = merged(flags.inputs);
   warn_of_gaps(all.film.passes);
   for (const std::string& name : checkpoints) write_checkpoint(name, all);
-  if (!pictures.empty()) write_pictures(pictures, picture_of(all, flags));
+  if (!pictures.empty()) write_pictures(pictures, picture_of(all, flags), {});
   log_info("{} files, passes {}", flags.inputs.size(), all.film.passes.text());
   if (common.wants_text())
     for (const std::string& name : flags.outputs) print_result(name + "\n");

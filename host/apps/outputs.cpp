@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "image/tonemap.h"
 
 namespace pellucid {
 namespace {
@@ -51,11 +50,22 @@ bool is_picture_name(const std::string& name) {
   return contains(LINEAR_TYPES, suffix) || contains(DISPLAY_TYPES, suffix) || suffix == "pfm";
 }
 
-void write_pictures(const std::vector<std::string>& names, const Image& linear) {
+ToneCurve parse_tone_curve(const std::string& option, const std::string& name) {
+  static const std::vector<std::string> names = {"srgb", "filmic", "none"};  // as in ToneCurve
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw UsageError(fmt::format("{}: '{}' is none of {}.{}", option, name, join(names),
+                                 did_you_mean(name, names)));
+  return static_cast<ToneCurve>(found - names.begin());
+}
+
+void write_pictures(const std::vector<std::string>& names, const Image& linear,
+                    const DisplayTransform& display) {
   std::exception_ptr first;
   for (const std::string& name : names) {
     try {
-      write_image(name, contains(DISPLAY_TYPES, suffix_of(name)) ? to_display(linear) : linear);
+      const bool shown = contains(DISPLAY_TYPES, suffix_of(name));
+      write_image(name, shown ? to_display(linear, display) : linear);
     } catch (const OutputError&) {
       if (!first) first = std::current_exception();
     }

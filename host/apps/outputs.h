@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "image/tonemap.h"
 
 namespace pellucid {
 
@@ -14,8 +15,13 @@ void check_picture_types(const std::vector<std::string>& names);
 /// Whether the suffix is one of a picture, written by us or only read.
 bool is_picture_name(const std::string& name);
 
-/// Writes a linear image to every name, tone-mapped where the type holds display values. One that
-/// fails does not keep the others from being written; the first OutputError is thrown at the end.
-void write_pictures(const std::vector<std::string>& names, const Image& linear);
+/// The curve by its name. Throws UsageError that lists the names.
+ToneCurve parse_tone_curve(const std::string& option, const std::string& name);
+
+/// Writes a linear image to every name; `display` acts where the type holds display values. One
+/// that fails does not keep the others from being written; the first OutputError is thrown at the
+/// end.
+void write_pictures(const std::vector<std::string>& names, const Image& linear,
+                    const DisplayTransform& display);
 
 }  // namespace pellucid

@@ -8,6 +8,7 @@
 
 #include "apps/command.h"
 #include "apps/common.h"
+#include "apps/dry_run.h"
 #include "apps/outputs.h"
 #include "apps/render_options.h"
 #include "apps/render_report.h"
@@ -64,7 +65,8 @@ void RenderJob::check_outputs() const {
 /// Loads the scene and settles what will be rendered.
 void RenderJob::prepare() {
   flags_.check();
-  scene_ = open_scene(flags_.scene);
+  flags_.device.limit();
+  scene_ = open_scene(flags_.scene, flags_.load_options());
   flags_.override_settings(scene_.settings);
   facts_.scene = &scene_;
   facts_.integrator = &choose_integrator(flags_.integrator, scene_);
@@ -106,7 +108,7 @@ void RenderJob::write_pictures_of(const Film& film) {
   add_progress(film, facts_.film, facts_.session->counters(), facts_.seconds.render,
                image.metadata);
   if (flags_.deterministic) make_deterministic(image.metadata);
-  write_pictures(names_, image);
+  write_pictures(names_, image, flags_.display());
 }
 
 void RenderJob::write_checkpoint_of(const Film& film) {
@@ -203,7 +205,7 @@ ExitCode RenderJob::run() {
   // A broken installation must show before the render, not after it; loading takes as long as
   // opening the device and finding kernels in the cache, so it goes on beside them.
   std::future<void> image_library = std::async(std::launch::async, load_image_library);
-  const Device target = Device::open(flags_.device);
+  const Device target = flags_.device.open();
   // Building a BVH is wasted time if not even the film fits.
   plan_memory(target.info(), {}, *facts_.integrator, facts_.options.window(),
               facts_.options.memory);
@@ -216,6 +218,11 @@ ExitCode RenderJob::run() {
     return pack_scene(scene_, {simd_width_for(target.info())});
   }();
   facts_.packed = &packed;
+  if (flags_.dry_run) {
+    image_library.get();
+    tell_plan(facts_, names_, common_);
+    return ExitCode::done;
+  }
   facts_.seconds.bvh = phase.seconds();
   render_aov_channels(target);
   auto session = [&] {

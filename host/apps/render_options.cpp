@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <tuple>
 
 #include "apps/common.h"
 #include "apps/outputs.h"
+#include "apps/scene_input.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "integrators/registry.h"
@@ -77,10 +79,11 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
   std::string methods;
   for (const Integrator& i : integrators())
     methods += fmt::format("{}{}: {}", methods.empty() ? "" : "; ", i.name, i.summary);
-  app.add_option("-i,--integrator", f.integrator, methods + ". Default: the scene's, else path")
-      ->type_name("NAME");
-  app.add_option("--mis", f.mis, "how `path` weighs its two strategies: balance, power or max")
-      ->type_name("RULE");
+  app.add_option("-i,--integrator", f.integrator,
+                 "the method (default: the scene's, else path). " + methods)
+      ->type_name(integrator_names());
+  app.add_option("--mis", f.mis, "how `path` weighs its two strategies (default balance)")
+      ->type_name("balance|power|max");
   app.add_option("--spp", f.spp, "samples per pixel (default: the scene's, else 64)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));
   app.add_option("--time", f.time,
@@ -88,18 +91,19 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
       ->type_name("DURATION");
   app.add_option("--sampler", f.sampler,
                  "sobol (default): scrambled Sobol points, less noise; random: independent numbers")
-      ->type_name("NAME");
-  app.add_option(
-         "--filter", f.filter,
-         "pixel filter: " + join(pixel_filter_names()) + " (default: the scene's, else gaussian)")
-      ->type_name("NAME");
+      ->type_name("sobol|random");
+  app.add_option("--filter", f.filter, "pixel filter (default: the scene's, else gaussian)")
+      ->type_name(fmt::format("{}", fmt::join(pixel_filter_names(), "|")));
   app.add_option("--seed", f.seed, "random seed (default 0)")->check(whole_number);
 }
 
 }  // namespace
 
 void RenderFlags::declare(CLI::App& app) {
-  app.add_option("SCENE", scene, "scene file (.json), or the name of a shipped scene")->required();
+  app.add_option("SCENE", scene,
+                 "scene file (.json), model (.obj, .ply), or the name of a shipped scene")
+      ->required();
+  declare_overrides(app, overrides);
   declare_sampling(app, *this);
   app.add_option("--size", size, "image size in pixels, e.g. 640x480 (default: the scene's)")
       ->type_name("WxH");
@@ -110,6 +114,30 @@ void RenderFlags::declare(CLI::App& app) {
                  "longest path in segments, an emitter seen directly has 1 (default: the scene's, "
                  "else unlimited)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xfffffffe}));
+  declare_files(app);
+  device.declare(app);
+  device.declare_threads(app);
+  app.add_option(
+         "--features", features,
+         "what kernels hold: auto (what the scene needs), all, or a list like +phong,+disks")
+      ->type_name("auto|all|LIST");
+  app.add_option("--work-group", group,
+                 "work-items per group; changes speed, never the image (default 64)")
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--memory", memory,
+                 "most device memory to use, e.g. 2G; larger pictures are rendered in bands")
+      ->type_name("BYTES");
+  app.add_option("--kernel-dir", kernel_dir, "read kernels from this folder instead of the program")
+      ->type_name("DIR");
+  app.add_option("--stats", stats, "write statistics of the render as JSON")->type_name("FILE");
+  app.add_flag("--strict", strict, "device counters and warnings are errors");
+  app.add_flag("--deterministic", deterministic, "leave time, host and device out of the image");
+  app.add_flag("--dry-run", dry_run,
+               "tell what would be rendered, and whether it could be, without doing it");
+  app.footer("Example: pellucid render cornell-box --spp 128 -o box.exr -o box.png");
+}
+
+void RenderFlags::declare_files(CLI::App& app) {
   app.add_option(
          "-o,--output", outputs,
          "picture to write, type by suffix; repeatable (default: SCENE.exr and SCENE.png here)")
@@ -129,29 +157,24 @@ void RenderFlags::declare(CLI::App& app) {
          "render the global passes A to B-1 only, so that several runs share the work of one "
          "(see `merge`); a pass is one sample per pixel")
       ->type_name("A:B");
-  app.add_option("--device", device, "OpenCL device: index as in `devices`, or part of its name")
-      ->type_name("SPEC")
-      ->envname("PELLUCID_DEVICE");
+  app.add_option("--exposure", exposure,
+                 "brighter by so many stops (negative: darker); display pictures only")
+      ->type_name("EV");
   app.add_option(
-         "--features", features,
-         "what kernels hold: auto (what the scene needs), all, or a list like +phong,+disks")
-      ->type_name("LIST");
-  app.add_option("--work-group", group,
-                 "work-items per group; changes speed, never the image (default 64)")
-      ->check(CLI::Range(1, 4096));
-  app.add_option("--memory", memory,
-                 "most device memory to use, e.g. 2G; larger pictures are rendered in bands")
-      ->type_name("BYTES");
-  app.add_option("--kernel-dir", kernel_dir, "read kernels from this folder instead of the program")
-      ->type_name("DIR");
-  app.add_option("--stats", stats, "write statistics of the render as JSON")->type_name("FILE");
-  app.add_flag("--strict", strict, "device counters and warnings are errors");
-  app.add_flag("--deterministic", deterministic, "leave time, host and device out of the image");
-  app.footer("Example: pellucid render cornell-box --spp 128 -o box.exr -o box.png");
+         "--tonemap", tonemap,
+         "curve of display pictures: the sRGB one alone, filmic highlights before it, or none "
+         "(linear values, clipped)")
+      ->type_name("srgb|filmic|none");
+}
+
+LoadOptions RenderFlags::load_options() const {
+  LoadOptions o;
+  o.overrides = overrides;
+  if (!size.empty()) o.size = parse_size("--size", size);
+  return o;
 }
 
 void RenderFlags::override_settings(RenderSettings& settings) const {
-  if (!size.empty()) std::tie(settings.width, settings.height) = parse_size("--size", size);
   if (!filter.empty())
     settings.filter = find_pixel_filter(one_of("--filter", filter, pixel_filter_names()));
 }
@@ -175,6 +198,16 @@ RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) con
   return o;
 }
 
+DisplayTransform RenderFlags::display() const {
+  constexpr double most = 100;  // 2^100 is beyond the range between float's black and white
+  DisplayTransform d;
+  d.curve = parse_tone_curve("--tonemap", tonemap);
+  if (!exposure.empty()) d.exposure = parse_number("--exposure", exposure);
+  if (std::abs(d.exposure) > most)
+    throw UsageError(fmt::format("--exposure takes stops from -100 to 100, not '{}'", exposure));
+  return d;
+}
+
 std::vector<std::string> RenderFlags::output_names(const Scene& s) const {
   if (outputs.empty()) return {s.name + ".exr", s.name + ".png"};
   check_picture_types(outputs);
@@ -190,6 +223,7 @@ void RenderFlags::check() const {
   parse_duration("--every", every);
   for (const std::string& aov : aovs) one_of("--aov", aov, aov_names());
   one_of("--sampler", sampler, sampler_names());
+  display();
 }
 
 }  // namespace pellucid

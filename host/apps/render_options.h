@@ -6,31 +6,40 @@
 #include <string>
 #include <vector>
 
+#include "apps/device_input.h"
+#include "image/tonemap.h"
 #include "render/session.h"
-#include "scene/scene.h"
+#include "scene/load.h"
 
 namespace pellucid {
 
 /// Options as people write them. Precedence: flag, environment, scene, default.
 struct RenderFlags {
   std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, size, crop,
-                                 passes, device, features = "auto", kernel_dir, stats, memory,
-                                 checkpoint, every = "60s";
-  std::vector<std::string> outputs, aovs;
+                                 passes, features = "auto", kernel_dir, stats, memory, checkpoint,
+                                 every = "60s", exposure, tonemap = "srgb";
+  std::vector<std::string> overrides, outputs, aovs;
+  DeviceFlags device;
   std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0;
-  bool strict = false, deterministic = false, resume = false;
+  bool strict = false, deterministic = false, resume = false, dry_run = false;
 
   void declare(CLI::App& app);
   /// Throws UsageError for a value that no scene could make sense of.
   void check() const;
+  LoadOptions load_options() const;
   /// The scene's settings as the flags want them. Throws UsageError.
   void override_settings(RenderSettings& settings) const;
   /// What the session is told. Throws UsageError.
   RenderOptions options(const Scene& scene, const Integrator& method) const;
   /// Seconds between two checkpoints.
   double checkpoint_period() const;
+  /// How display pictures are made.
+  DisplayTransform display() const;
   /// Pictures to write; the default ones are named after the scene.
   std::vector<std::string> output_names(const Scene& scene) const;
+
+ private:
+  void declare_files(CLI::App& app);  ///< pictures and checkpoints
 };
 
 }  // namespace pellucid

@@ -8,14 +8,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/scene_report.h"
 #include "base/version.h"
 
 namespace pellucid {
 namespace {
-
-const char* mis_name(uint mis) {
-  return mis == MIS_POWER ? "power" : mis == MIS_MAX ? "max" : "balance";
-}
 
 /// World to camera space (x right, y up, looking down -z), for row vectors as OpenEXR has it: p' =
 /// p M.
@@ -65,6 +62,10 @@ std::string counters_text(const std::vector<Counter>& counters) {
 
 }  // namespace
 
+const char* mis_name(uint mis) {
+  return mis == MIS_POWER ? "power" : mis == MIS_MAX ? "max" : "balance";
+}
+
 Evidence lasting_evidence(const RenderFacts& f) {
   Evidence meta;
   const Camera& camera = f.scene->camera;
@@ -109,10 +110,6 @@ std::map<std::string, std::string> identity(const RenderFacts& f) {
 
 nlohmann::json render_stats(const RenderFacts& f) {
   using nlohmann::json;
-  json features = json::object();
-  const FeatureSet set = f.session->plan().specialisation().features;
-  for (unsigned i = 0; i < FEATURE_COUNT; ++i)
-    features[feature_word(static_cast<Feature>(i))] = set.has(static_cast<Feature>(i));
   json counters = json::object();
   for (const Counter& c : f.session->counters()) counters[c.name] = c.count;
   json passes = json::array();
@@ -138,7 +135,7 @@ nlohmann::json render_stats(const RenderFacts& f) {
             {"write", f.seconds.write},
             {"total", f.seconds.total}}},
           {"passes", passes},
-          {"features", features},
+          {"features", feature_flags(f.session->plan().specialisation().features, all_features())},
           {"counters", counters},
           {"memory_bytes", f.session->plan().memory()},
           {"film_bytes", f.session->memory().film_bytes},

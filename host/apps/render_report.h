@@ -45,6 +45,9 @@ void make_deterministic(Evidence& evidence);
 /// What must agree for checkpoints to be of the same picture.
 std::map<std::string, std::string> identity(const RenderFacts& facts);
 
+/// "balance", "power" or "max".
+const char* mis_name(uint mis);
+
 /// The document of --stats and --json.
 nlohmann::json render_stats(const RenderFacts& facts);
 

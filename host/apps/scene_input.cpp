@@ -7,8 +7,8 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "base/text.h"
 #include "integrators/registry.h"
-#include "scene/load.h"
 
 namespace pellucid {
 namespace {
@@ -23,18 +23,34 @@ std::vector<std::string> scene_folders() {
   const std::string program = executable_path();
   const std::string installed =
       program.substr(0, program.rfind('/') + 1) + "../share/pellucid/scenes";
-  std::vector<std::string> folders;
-  for (const std::string& folder : {installed, std::string(PELLUCID_SCENE_DIR)})
-    if (is_folder(folder)) folders.push_back(folder);
-  return folders;
+  return {is_folder(installed) ? installed : PELLUCID_SCENE_DIR};
 }
 
 }  // namespace
 
-Scene open_scene(const std::string& path_or_name) {
-  Scene scene = load_scene(find_scene(path_or_name, scene_folders()));
+void declare_overrides(CLI::App& app, std::vector<std::string>& overrides) {
+  app.add_option("-D", overrides,
+                 "set a value of the scene before it is read, e.g. camera.fov=30, "
+                 "shapes.0.material=red or /film/width=64; repeatable")
+      ->type_name("POINTER=VALUE")
+      ->allow_extra_args(false);
+}
+
+std::vector<std::string> shipped_scenes() {
+  return scene_names(scene_folders());
+}
+
+Scene open_scene(const std::string& path_or_name, const LoadOptions& options) {
+  Scene scene = load_scene(find_scene(path_or_name, scene_folders()), options);
+  for (const std::string& note : scene.notes) log_info("{}", note);
   for (const std::string& warning : scene.warnings) log_warn("{}", warning);
   return scene;
+}
+
+std::string integrator_names() {
+  std::vector<std::string> names;
+  for (const Integrator& integrator : integrators()) names.push_back(integrator.name);
+  return join(names, "|");
 }
 
 const Integrator& choose_integrator(const std::string& flag, const Scene& scene) {
@@ -48,7 +64,8 @@ const Integrator& choose_integrator(const std::string& flag, const Scene& scene)
 
 std::string scene_hash(const Scene& scene) {
   Hasher hasher;
-  for (const std::string& file : scene.files) hasher.add(read_text(file));
+  for (const SourceFile& file : scene.files) hasher.add(file.hash);
+  for (const std::string& override_text : scene.overrides) hasher.add("\n-D " + override_text);
   return hasher.hex();
 }
 

@@ -12,9 +12,12 @@
 
 namespace pellucid {
 
-inline unsigned host_threads() {
-  return std::max(1u, std::thread::hardware_concurrency());
-}
+/// Bounds the threads of this process from now on: our own, and by their environment variables
+/// those of libraries that are loaded later (PoCL, OpenImageIO).
+void limit_threads(unsigned count);
+
+/// Threads to use for work on the host: all cores, or the limit.
+unsigned host_threads();
 
 /// Runs task(i) for i in [0, count) on all cores; the first exception is thrown on after all have
 /// ended.

@@ -19,7 +19,8 @@ struct DeviceInfo {
   int native_float_width = 1;     ///< lanes of the native float vector
   std::uint64_t memory = 0, max_buffer = 0;  ///< bytes; as reported, which is not always the truth
   std::size_t max_group = 1;
-  std::string unusable;  ///< reason, empty if usable
+  unsigned compute_units = 0;  ///< on CPUs the driver's threads
+  std::string unusable;        ///< reason, empty if usable
   std::string spec() const { return std::to_string(platform) + ":" + std::to_string(index); }
 };
 

@@ -51,6 +51,7 @@ DeviceInfo describe_device(const cl::Platform& platform, const cl::Device& devic
   info.memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   info.max_buffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   info.max_group = device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+  info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   info.unusable = why_unusable(device);
   return info;
 }

@@ -46,6 +46,9 @@ struct WordImage {
   }
 };
 
+/// Metadata key: 8-bit values are linear; PNG files then say so instead of naming sRGB.
+constexpr const char* LINEAR_PICTURE = "linearPicture";
+
 /// Loads the image library now (0.2 s) instead of at the first read or write, so that a broken
 /// installation shows before hours of rendering. Any thread may call it. Throws InputError with
 /// what to do.

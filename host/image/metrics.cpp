@@ -149,4 +149,24 @@ Image error_map(const Image& a, const Image& reference) {
   return map;
 }
 
+ChannelStatistics channel_statistics(const Image& image, std::size_t channel) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  ChannelStatistics s{infinity, 0.0, -infinity, 0};
+  std::uint64_t finite = 0;
+  for (std::size_t i = channel; i < image.data.size(); i += image.channels.size()) {
+    const double value = image.data[i];
+    if (!std::isfinite(value)) {
+      ++s.nonfinite;
+      continue;
+    }
+    ++finite;
+    s.mean += value;
+    s.min = std::min(s.min, value);
+    s.max = std::max(s.max, value);
+  }
+  s.mean /= static_cast<double>(finite);  // 0 / 0 where there is none
+  if (finite == 0) s.min = s.max = s.mean;
+  return s;
+}
+
 }  // namespace pellucid

@@ -27,4 +27,11 @@ ImageError compare_images(const Image& a, const Image& reference);
 /// image is not finite. Throws as compare_images.
 Image error_map(const Image& a, const Image& reference);
 
+/// One channel on its own. Only finite values count for min, mean and max; NaN if there is none.
+struct ChannelStatistics {
+  double min = 0, mean = 0, max = 0;
+  std::uint64_t nonfinite = 0;
+};
+ChannelStatistics channel_statistics(const Image& image, std::size_t channel);
+
 }  // namespace pellucid

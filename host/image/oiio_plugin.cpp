@@ -215,7 +215,8 @@ OIIO::ImageSpec make_spec(const Image& image, const std::string& format) {
   OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()),
                        format == "png" ? OIIO::TypeUInt8 : OIIO::TypeFloat);
   spec.channelnames.assign(image.channels.begin(), image.channels.end());
-  if (format == "png") spec.attribute("oiio:ColorSpace", "sRGB");
+  const bool linear = image.metadata.count(LINEAR_PICTURE) > 0;
+  if (format == "png") spec.attribute("oiio:ColorSpace", linear ? "Linear" : "sRGB");
   if (!exr) return spec;
   if (image.full_width > 0) {
     spec.x = image.x0;

@@ -37,6 +37,13 @@ Rgb colour_of(float error) {
   return colour;
 }
 
+/// The fit of ACES's reference curves for displays [Narkowicz15]: f(0) = 0, f(1) = 0.8038; it
+/// reaches 1 near 7.2.
+double filmic(double v) {
+  if (v > 1e8) return 1.0;  // long since white, and squares stay finite
+  return (v * (2.51 * v + 0.03)) / (v * (2.43 * v + 0.59) + 0.14);
+}
+
 }  // namespace
 
 float srgb_encode(float linear) {
@@ -51,13 +58,23 @@ float srgb_decode(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-Image to_display(const Image& linear) {
+float display_value(float linear, const DisplayTransform& display) {
+  const double scaled = linear * std::exp2(display.exposure);
+  if (!(scaled > 0.0)) return 0.0f;
+  if (display.curve == ToneCurve::srgb) return srgb_encode(float(scaled));
+  if (display.curve == ToneCurve::none) return float(std::min(scaled, 1.0));
+  return srgb_encode(float(filmic(scaled)));
+}
+
+Image to_display(const Image& linear, const DisplayTransform& display) {
   Image out = rgb_like(linear);
   std::array<int, 3> from = {linear.channel("R"), linear.channel("G"), linear.channel("B")};
   if (*std::min_element(from.begin(), from.end()) < 0) from = {0, 0, 0};
   const std::size_t channels = linear.channels.size();
   for (std::size_t first = 0; first < linear.data.size(); first += channels)
-    for (const int c : from) out.data.push_back(srgb_encode(linear.data[first + std::size_t(c)]));
+    for (const int c : from)
+      out.data.push_back(display_value(linear.data[first + std::size_t(c)], display));
+  if (display.curve == ToneCurve::none) out.metadata[LINEAR_PICTURE] = 1;
   return out;
 }
 

@@ -10,9 +10,23 @@ namespace pellucid {
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
-/// R,G,B of a linear image as display-referred RGB: the sRGB curve alone, clipped. An image without
-/// them gives its first channel as grey.
-Image to_display(const Image& linear);
+/// How linear values become those of a display picture.
+enum class ToneCurve {
+  srgb,    ///< the sRGB curve alone, clipped
+  filmic,  ///< an S-shaped curve that rolls highlights off, then the sRGB curve [Narkowicz15]
+  none,    ///< linear values, clipped
+};
+struct DisplayTransform {
+  ToneCurve curve = ToneCurve::srgb;
+  double exposure = 0.0;  ///< stops: values are first multiplied by 2^exposure
+};
+
+/// In [0,1]; NaN maps to 0.
+float display_value(float linear, const DisplayTransform& display);
+
+/// R,G,B of a linear image as a display picture. An image without them gives its first channel as
+/// grey. Metadata says so if its values are linear.
+Image to_display(const Image& linear, const DisplayTransform& display = {});
 
 /// One channel of relative errors as display-referred RGB on a logarithmic scale: 0.001 and less
 /// black, 0.01 blue, 0.1 red, 1 yellow, 10 and more white, straight lines in between; NaN is green,

@@ -27,6 +27,15 @@ std::vector<fs::path> scene_files(const std::string& folder) {
 
 }  // namespace
 
+std::vector<std::string> scene_names(const std::vector<std::string>& scene_folders) {
+  std::vector<std::string> names;
+  for (const std::string& folder : scene_folders)
+    for (const fs::path& file : scene_files(folder)) names.push_back(file.stem().string());
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
 std::string find_scene(const std::string& path_or_name,
                        const std::vector<std::string>& scene_folders) {
   std::error_code ignored;
@@ -35,15 +44,11 @@ std::string find_scene(const std::string& path_or_name,
   // A folder named like a shipped scene does not hide it; any other is left to the loader's
   // message.
   if (exists && !fs::is_directory(path_or_name, ignored)) return path_or_name;
-  std::vector<std::string> names;
   for (const std::string& folder : scene_folders)
-    for (const fs::path& file : scene_files(folder)) {
+    for (const fs::path& file : scene_files(folder))
       if (file.stem() == path_or_name || file.filename() == path_or_name) return file.string();
-      names.push_back(file.stem().string());
-    }
   if (exists) return path_or_name;
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
+  const std::vector<std::string> names = scene_names(scene_folders);
   const std::string shipped =
       names.empty() ? fmt::format("no shipped scenes were found in {}", list_choices(scene_folders))
                     : "shipped scenes: " + fmt::format("{}", fmt::join(names, ", "));

@@ -129,11 +129,10 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
       if (parent.kind == JsonNode::Kind::array) {
         parent.items.emplace_back();
         node = &parent.items.back();
-        node->path = fmt::format("{}[{}]", parent.path, parent.items.size() - 1);
+        node->path = item_path(parent, parent.items.size() - 1);
       } else {
-        const std::string& key = parent.members.back().key;
         node = &parent.members.back().value;
-        node->path = parent.path.empty() ? printable(key) : parent.path + "." + printable(key);
+        node->path = member_path(parent, parent.members.back().key);
       }
     }
     node->kind = kind;
@@ -200,8 +199,19 @@ const char* kind_name(JsonNode::Kind kind) {
   return "a value";
 }
 
+std::string member_path(const JsonNode& parent, const std::string& key) {
+  return parent.path.empty() ? printable(key) : parent.path + "." + printable(key);
+}
+
+std::string item_path(const JsonNode& parent, std::size_t index) {
+  return fmt::format("{}[{}]", parent.path, index);
+}
+
 JsonNode parse_json(const std::string& path, std::string text) {
-  auto source = std::make_shared<JsonSource>(JsonSource{path, std::move(text)});
+  return parse_json(std::make_shared<const JsonSource>(JsonSource{path, std::move(text)}));
+}
+
+JsonNode parse_json(std::shared_ptr<const JsonSource> source) {
   // The parser would take it for the end of the text.
   const std::size_t zero = source->text.find('\0');
   if (zero != std::string::npos) fail_at(*source, zero, "", "a zero byte: this is no JSON text");
@@ -214,6 +224,11 @@ JsonNode parse_json(const std::string& path, std::string text) {
 
 void fail_at(const JsonSource& source, std::size_t offset, const std::string& json_path,
              const std::string& why) {
+  if (!source.has_lines) {
+    const bool hints = why.find("Did you mean") != std::string::npos;
+    throw InputError(fmt::format("{}: {}{}{}{}", source.path, json_path,
+                                 json_path.empty() ? "" : ": ", why, hints ? "" : source.hint));
+  }
   const std::string& text = source.text;
   offset = std::min(offset, text.size());
   const std::size_t newline = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);

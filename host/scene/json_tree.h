@@ -12,6 +12,8 @@ namespace pellucid {
 struct JsonSource {
   std::string path;
   std::string text;
+  bool has_lines = true;  ///< false: an option or the like; messages show no line of it
+  std::string hint = {};  ///< ends messages that have no "Did you mean" of their own
 };
 
 struct JsonMember;
@@ -45,8 +47,14 @@ const char* kind_name(JsonNode::Kind kind);
 
 /// Parses a whole document; comments (// and /* */) are allowed, duplicated keys are errors.
 JsonNode parse_json(const std::string& path, std::string text);
+JsonNode parse_json(std::shared_ptr<const JsonSource> source);
 
-/// Throws InputError: `path:line:col: json.path: why`, then the line and a caret under the place.
+/// Path of a member or an item of `parent`, as messages say it.
+std::string member_path(const JsonNode& parent, const std::string& key);
+std::string item_path(const JsonNode& parent, std::size_t index);
+
+/// Throws InputError: `path:line:col: json.path: why`, then the line and a caret under the place;
+/// `path: json.path: why` where the source has no lines.
 [[noreturn]] void fail_at(const JsonSource& source, std::size_t offset,
                           const std::string& json_path, const std::string& why);
 [[noreturn]] void fail(const JsonNode& node, const std::string& why);

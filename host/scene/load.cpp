@@ -5,8 +5,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 
 #include "base/error.h"
+#include "scene/bare_model.h"
+#include "scene/model.h"
+#include "scene/overrides.h"
 #include "scene/parse.h"
 #include "scene/text_file.h"
 
@@ -15,7 +19,6 @@ namespace {
 
 /// Geometry never stands inside JSON, so that no sensible scene file comes near this.
 constexpr std::size_t max_scene_bytes = std::size_t{64} << 20;
-/// Pixels: what fits the film accumulators of common devices with room to spare.
 
 RenderSettings parse_settings(const JsonNode& film_node, const JsonNode& integrator_node) {
   RenderSettings settings;
@@ -77,34 +80,44 @@ void finish_warnings(SceneBuilder& builder) {
   if (!lit) scene.warnings.push_back("the scene has no light: the picture will be black");
 }
 
-void require_scene_suffix(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension().string();
-  if (suffix == ".obj" || suffix == ".ply" || suffix == ".mtl")
-    throw InputError(
-        fmt::format("'{}' is a model, not a scene; write a scene file (.json) with a "
-                    "shape of type \"mesh\" that names it",
-                    path));
+/// The document of a scene or of a bare model, with what the command line changes.
+JsonNode read_document(const std::string& path, const LoadOptions& options, SceneBuilder& builder) {
+  JsonNode root;
+  if (is_model_file(path)) {
+    root = bare_model_document(path);
+  } else {
+    const std::string text = read_text_file(path, "scene file", max_scene_bytes);
+    builder.scene.files.push_back(source_file(path, text));
+    root = parse_json(path, text);
+  }
+  for (const std::string& definition : options.overrides) apply_override(root, definition);
+  builder.scene.overrides = options.overrides;
+  return root;
 }
 
 }  // namespace
 
-Scene load_scene(const std::string& path) {
-  require_scene_suffix(path);
-  const JsonNode root = parse_json(path, read_text_file(path, "scene file", max_scene_bytes));
-  const ObjectReader reader(root, object_spec("scene"));
-
+Scene load_scene(const std::string& path, const LoadOptions& options) {
   SceneBuilder builder;
   Scene& scene = builder.scene;
+  JsonNode root = read_document(path, options, builder);
+  const ObjectReader reader(root, object_spec("scene"));
+  const bool bare = is_model_file(path);
   const std::filesystem::path file(path);
   builder.folder = file.parent_path().string();
   scene.path = path;
   scene.name = file.stem().string();
-  scene.files.push_back(path);
   if (reader.has("description")) scene.description = reader.text("description");
-  scene.camera = parse_camera(reader.value("camera"));
   scene.settings = parse_settings(reader.value("film"), reader.value("integrator"));
+  if (options.size) std::tie(scene.settings.width, scene.settings.height) = *options.size;
+  if (!bare) scene.camera = parse_camera(reader.value("camera"));
   parse_materials(reader.value("materials"), builder);
+  if (bare) builder.bare_material = bare_material(builder);
   for (const JsonNode& node : reader.value("shapes").items) parse_shape(node, builder);
+  if (bare) {
+    complete_bare_model(scene, root);
+    scene.camera = parse_camera(reader.value("camera"));
+  }
   parse_lights(reader.value("lights"), scene);
   finish_warnings(builder);
   return std::move(builder.scene);

@@ -18,15 +18,14 @@
 namespace pellucid {
 namespace {
 
-constexpr std::size_t max_model_bytes = std::size_t{8} << 30;
 constexpr const char* remedy =
     "; give the file, or give the shape a \"material\", which replaces those of the model";
 
 /// Finds MTL files beside the OBJ file, and fails where tinyobjloader would only warn.
 class LibraryReader : public tinyobj::MaterialReader {
  public:
-  LibraryReader(std::string obj_path, ObjModel& model)
-      : obj_path_(std::move(obj_path)), model_(model) {}
+  LibraryReader(std::string obj_path, bool lenient, Model& model)
+      : obj_path_(std::move(obj_path)), lenient_(lenient), model_(model) {}
 
   /// What the files say beyond tinyobjloader.
   const MtlScan& scan() const { return scan_; }
@@ -38,10 +37,13 @@ class LibraryReader : public tinyobj::MaterialReader {
     try {
       text = read_text_file(path, "material file", max_model_bytes);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{} (named by '{}'){}", error.what(), obj_path_, remedy));
+      if (!lenient_)
+        throw InputError(fmt::format("{} (named by '{}'){}", error.what(), obj_path_, remedy));
+      model_.warnings.push_back(fmt::format("{} (named by '{}')", error.what(), obj_path_));
+      return false;
     }
     scan_.merge(scan_mtl(path, text));
-    model_.files.push_back(path);
+    model_.files.push_back(source_file(path, text));
     std::istringstream in(text);
     tinyobj::LoadMtl(index, materials, &in, warn, err);
     return true;
@@ -49,10 +51,12 @@ class LibraryReader : public tinyobj::MaterialReader {
 
  private:
   std::string obj_path_;
-  ObjModel& model_;
+  bool lenient_;
+  Model& model_;
   MtlScan scan_;
 };
 
+/// Fails where a face would be left without a material.
 void check_materials(const std::string& path, const ObjScan& scan,
                      const std::vector<std::string>& files,
                      const std::vector<tinyobj::material_t>& materials) {
@@ -161,13 +165,14 @@ bool has_normals(const tinyobj::mesh_t& mesh) {
 
 /// One part per material of one tinyobjloader shape, which is an object or a group.
 void add_parts(const tinyobj::shape_t& shape, const tinyobj::attrib_t& attrib,
-               const ObjOptions& options, const std::vector<bool>& textured, ObjModel& model) {
+               const ModelOptions& options, const std::vector<bool>& textured, Model& model) {
   const bool smooth = options.use_normals && has_normals(shape.mesh);
   std::map<int, PartBuilder> builders;  // by material, in the order of the material file
   for (std::size_t t = 0; t < shape.mesh.num_face_vertices.size(); ++t) {
-    const int material = options.ignore_materials ? 0 : shape.mesh.material_ids[t];
-    const bool with_uvs =
-        options.textured || (!textured.empty() && textured[static_cast<std::size_t>(material)]);
+    const bool given = options.materials != ModelMaterials::replaced;
+    const int material = given ? shape.mesh.material_ids[t] : no_material;
+    const bool with_uvs = options.textured ||
+                          (material != no_material && textured[static_cast<std::size_t>(material)]);
     const auto part = builders.try_emplace(material, attrib, smooth, with_uvs).first;
     part->second.add(&shape.mesh.indices[3 * t]);
   }
@@ -175,8 +180,26 @@ void add_parts(const tinyobj::shape_t& shape, const tinyobj::attrib_t& attrib,
     model.parts.push_back({shape.name, material, std::nullopt, builder.take()});
 }
 
+/// Fails where a material stands in a file that is named too late.
+void check_parts(const std::string& path, const Model& model) {
+  for (const ModelPart& part : model.parts)
+    if (part.material == no_material)
+      throw InputError(fmt::format(
+          "{}: \"{}\" uses a material before the mtllib that holds it; move mtllib to the top",
+          path, printable(part.name)));
+}
+
+/// Says once per model what was to have a material and has none.
+void warn_of_missing(const std::string& path, const ObjScan& scan, Model& model) {
+  const bool any = std::any_of(model.parts.begin(), model.parts.end(),
+                               [](const ModelPart& part) { return part.material == no_material; });
+  if (any && !scan.materials.empty())
+    model.warnings.push_back(
+        fmt::format("{}: faces whose material is in no material file are plain grey", path));
+}
+
 /// Converts one material; its map_Kd goes with it where the result has a base colour.
-void convert_material(const tinyobj::material_t& mtl, const MtlScan& scan, ObjModel& model,
+void convert_material(const tinyobj::material_t& mtl, const MtlScan& scan, Model& model,
                       std::vector<std::optional<Emission>>& emissions) {
   MtlSurface surface = convert_mtl(mtl, scan.principled.count(mtl.name) != 0, model.warnings);
   std::optional<MtlTexture> texture;
@@ -197,18 +220,15 @@ void convert_material(const tinyobj::material_t& mtl, const MtlScan& scan, ObjMo
 }
 
 /// Converts the materials in use and renumbers the parts accordingly.
-void convert_materials(const std::string& path, const std::vector<tinyobj::material_t>& materials,
-                       const MtlScan& scan, ObjModel& model) {
+void convert_materials(const std::vector<tinyobj::material_t>& materials, const MtlScan& scan,
+                       Model& model) {
   std::map<int, int> renumbered;
   std::vector<std::optional<Emission>> emissions;
-  for (ObjPart& part : model.parts) {
+  for (ModelPart& part : model.parts) {
+    if (part.material == no_material) continue;
     const auto [entry, added] =
         renumbered.emplace(part.material, static_cast<int>(model.materials.size()));
     if (added) {
-      if (part.material < 0)
-        throw InputError(fmt::format(
-            "{}: \"{}\" uses a material before the mtllib that holds it; move mtllib to the top",
-            path, printable(part.name)));
       convert_material(materials[static_cast<std::size_t>(part.material)], scan, model, emissions);
     }
     part.material = entry->second;
@@ -218,7 +238,7 @@ void convert_materials(const std::string& path, const std::vector<tinyobj::mater
       model.warnings.push_back(
           fmt::format("{}: map_Kd of \"{}\" is left out on {}, where faces have no texture "
                       "coordinates (vt)",
-                      model.files.front(), printable(model.materials[id].name),
+                      model.files.front().path, printable(model.materials[id].name),
                       part.name.empty() ? "a part" : '"' + printable(part.name) + '"'));
   }
 }
@@ -236,33 +256,38 @@ std::vector<bool> find_textured(const MtlScan& scan, std::vector<tinyobj::materi
 
 }  // namespace
 
-ObjModel load_obj(const std::string& path, const ObjOptions& options) {
+Model load_obj(const std::string& path, const ModelOptions& options) {
   std::string text = read_text_file(path, "OBJ file", max_model_bytes);
   const ObjScan scan = scan_obj(path, text);
-  ObjModel model;
-  model.files.push_back(path);
+  Model model;
+  model.files.push_back(source_file(path, text));
   model.not_supported = scan.not_supported;
 
   tinyobj::attrib_t attrib;
   std::vector<tinyobj::shape_t> shapes;
   std::vector<tinyobj::material_t> materials;
   std::string ignored_warning, error;  // the scan has already said what matters
-  LibraryReader reader(path, model);
+  const bool replaced = options.materials == ModelMaterials::replaced;
+  const bool lenient = options.materials == ModelMaterials::lenient;
+  LibraryReader reader(path, lenient, model);
   std::istringstream in(std::move(text));
   constexpr bool triangulate = true, vertex_colors = false;
-  const bool loaded =
-      tinyobj::LoadObj(&attrib, &shapes, &materials, &ignored_warning, &error, &in,
-                       options.ignore_materials ? nullptr : &reader, triangulate, vertex_colors);
+  const bool loaded = tinyobj::LoadObj(&attrib, &shapes, &materials, &ignored_warning, &error, &in,
+                                       replaced ? nullptr : &reader, triangulate, vertex_colors);
   if (!loaded) throw InputError(fmt::format("{}: {}", path, printable(error, 200)));
-  if (!options.ignore_materials && !shapes.empty())
-    check_materials(path, scan, {model.files.begin() + 1, model.files.end()}, materials);
+  const bool strict = options.materials == ModelMaterials::own;
+  std::vector<std::string> libraries;
+  for (std::size_t i = 1; i < model.files.size(); ++i) libraries.push_back(model.files[i].path);
+  if (strict && !shapes.empty()) check_materials(path, scan, libraries, materials);
   const std::vector<bool> with_texture = find_textured(reader.scan(), materials);
   model.not_supported.insert(reader.scan().not_supported.begin(),
                              reader.scan().not_supported.end());
   for (const tinyobj::shape_t& shape : shapes)
     add_parts(shape, attrib, options, with_texture, model);
   if (model.parts.empty()) throw InputError(fmt::format("{}: the file has no faces", path));
-  if (!options.ignore_materials) convert_materials(path, materials, reader.scan(), model);
+  if (strict) check_parts(path, model);
+  if (lenient) warn_of_missing(path, scan, model);
+  convert_materials(materials, reader.scan(), model);
   return model;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -19,6 +20,7 @@ struct SceneBuilder {
   std::map<std::string, int> material_index;  ///< of "materials", by name
   std::map<std::string, int> image_index;     ///< of Scene::images, by file and colour space
   std::map<std::string, std::set<std::string>> not_supported;  ///< kind -> files that ask for it
+  std::optional<int> bare_material;  ///< of a bare model, where it has none of its own
 };
 
 Camera parse_camera(const JsonNode& node);

@@ -170,7 +170,8 @@ void parse_materials(const JsonNode& node, SceneBuilder& builder) {
   int count = 0;
   for (const JsonMember& member : node.members) {
     if (member.key.empty())
-      fail_at(*node.source, member.key_offset, node.path, "a material's name must not be empty");
+      fail_at(*member.value.source, member.key_offset, node.path,
+              "a material's name must not be empty");
     builder.material_index[member.key] = count++;
   }
   MaterialParser parser(node, builder);

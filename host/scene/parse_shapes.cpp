@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "scene/generate.h"
-#include "scene/obj.h"
+#include "scene/model.h"
 #include "scene/parse.h"
 #include "scene/transform.h"
 
@@ -123,7 +123,6 @@ RawMesh parse_rectangle(const ObjectReader& reader) {
   if (reader.has("size")) fail(reader.place("size"), "goes with \"center\", not \"corner\"");
   if (!reader.has("edges")) fail(reader.node(), "\"corner\" needs \"edges\" beside it");
   const JsonNode& edges = reader.place("edges");
-  if (edges.items.size() != 2) fail(edges, "two edges are needed: [[x, y, z], [x, y, z]]");
   constexpr Range coordinate{-largest_length, largest_length};
   return make_rectangle(reader.vector("corner"), read_vector(edges.items[0], coordinate),
                         read_vector(edges.items[1], coordinate));
@@ -170,7 +169,7 @@ RawMesh parse_generated(const ObjectReader& reader, const std::string& kind, boo
 }
 
 /// Appends the model's materials with their textures; returns the index of the first.
-int add_materials(ObjModel& model, SceneBuilder& builder) {
+int add_materials(Model& model, SceneBuilder& builder) {
   const int first = static_cast<int>(builder.scene.materials.size());
   for (std::size_t i = 0; i < model.materials.size(); ++i) {
     if (model.textures[i]) model.materials[i].texture = add_texture(*model.textures[i], builder);
@@ -182,23 +181,29 @@ int add_materials(ObjModel& model, SceneBuilder& builder) {
 void parse_mesh_file(const ObjectReader& reader, const ShapeParts& parts, SceneBuilder& builder) {
   const std::filesystem::path file = std::filesystem::path(builder.folder) / reader.text("file");
   const bool own_material = reader.has("material");
-  ObjOptions options{own_material, reader.boolean("smooth"),
-                     own_material && textured(builder.scene, parts.shape)};
-  ObjModel model;
+  ModelOptions options;
+  options.use_normals = reader.boolean("smooth");
+  options.textured = own_material && textured(builder.scene, parts.shape);
+  if (builder.bare_material) options.materials = ModelMaterials::lenient;
+  if (own_material) options.materials = ModelMaterials::replaced;
+  Model model;
   int first_material = 0;
   try {
-    model = load_obj(file.string(), options);
+    model = load_model(file.string(), options);
     first_material = add_materials(model, builder);
   } catch (const InputError& error) {
+    if (builder.bare_material) throw;  // the place in the file says it all
     fail(reader.place("file"), error.what());
   }
-  for (const std::string& read : model.files) builder.scene.files.push_back(read);
+  for (SourceFile& read : model.files) builder.scene.files.push_back(std::move(read));
   for (const std::string& warning : model.warnings) builder.scene.warnings.push_back(warning);
   for (const auto& [kind, where] : model.not_supported) builder.not_supported[kind].insert(where);
-  for (ObjPart& part : model.parts) {
+  for (ModelPart& part : model.parts) {
     ShapeParts piece = parts;
     if (!part.name.empty()) piece.shape.name += "/" + part.name;
-    if (!own_material) piece.shape.material = first_material + part.material;
+    if (!own_material)
+      piece.shape.material =
+          part.material == no_material ? *builder.bare_material : first_material + part.material;
     if (options.textured && part.mesh.uvs.empty())
       fail(reader.place("material"),
            fmt::format("the material has a texture, but {} of '{}' has faces without texture "

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "image/image.h"
 #include "image/tonemap.h"
 #include "scene/parse.h"
@@ -60,7 +61,7 @@ int image_of(const std::string& path, const std::string& color_space, SceneBuild
   const auto found = builder.image_index.find(key);
   if (found != builder.image_index.end()) return found->second;
   builder.scene.images.push_back(read_texture(path, color_space));
-  builder.scene.files.push_back(path);
+  builder.scene.files.push_back(source_file(path, read_text(path)));
   return builder.image_index[key] = static_cast<int>(builder.scene.images.size()) - 1;
 }
 

@@ -87,6 +87,12 @@ void check_integer(const JsonNode& node, const Range& range) {
   if (node.number != std::floor(node.number)) fail(node, "a whole number is needed here");
 }
 
+void check_edges(const JsonNode& node, const Range& range) {
+  if (node.kind != Kind::array || node.items.size() != 2)
+    fail(node, "two edges are needed: [[x, y, z], [x, y, z]]");
+  for (const JsonNode& edge : node.items) check_numbers(edge, 3, range);
+}
+
 void check_value(const JsonNode& node, const Field& field) {
   switch (field.type) {
     case FieldType::boolean:
@@ -109,8 +115,12 @@ void check_value(const JsonNode& node, const Field& field) {
       return check_color(node, field.range);
     case FieldType::matrix:
       return check_numbers(node, 16, field.range);
+    case FieldType::edges:
+      return check_edges(node, field.range);
     case FieldType::object:
+    case FieldType::map:
       return expect_kind(node, Kind::object, "an object");
+    case FieldType::names:
     case FieldType::array:
       return expect_kind(node, Kind::array, "a list");
   }
@@ -131,7 +141,7 @@ ObjectReader::ObjectReader(const JsonNode& node, const ObjectSpec& spec)
   for (const JsonMember& member : node.members) {
     const auto found = std::find(keys.begin(), keys.end(), member.key);
     if (found == keys.end())
-      fail_at(*node.source, member.key_offset, node.path,
+      fail_at(*member.value.source, member.key_offset, node.path,
               fmt::format("unknown key \"{}\" in {}.{} Valid: {}", printable(member.key), spec.name,
                           did_you_mean(printable(member.key), keys), list_choices(keys)));
     check_value(member.value, spec.fields[static_cast<std::size_t>(found - keys.begin())]);

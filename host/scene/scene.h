@@ -151,6 +151,12 @@ struct RenderSettings {
   std::optional<std::string> integrator;  ///< a name from the table of integrators
 };
 
+/// A file that the scene was read from.
+struct SourceFile {
+  std::string path;
+  std::string hash;  ///< of its bytes, taken while they were read
+};
+
 struct Scene {
   std::string name;         ///< file name without folder and suffix
   std::string path;         ///< as opened
@@ -162,8 +168,10 @@ struct Scene {
   std::vector<TextureImage> images;
   std::vector<Shape> shapes;
   std::vector<Light> lights;
-  std::vector<std::string> warnings;  ///< what was asked for and is not there yet, once per kind
-  std::vector<std::string> files;     ///< every file read, for the identity hash
+  std::vector<std::string> warnings;   ///< what was asked for and is not there yet, once per kind
+  std::vector<std::string> notes;      ///< what was decided for a bare model
+  std::vector<SourceFile> files;       ///< every file read, for the identity hash
+  std::vector<std::string> overrides;  ///< of the command line, as given, for the identity hash
 };
 
 /// Whether the material, or a part of it, looks at texture coordinates.

@@ -27,8 +27,13 @@ Fields join(Fields own, const Fields& shared) {
   return own;
 }
 
-const Fields transform_field = {
-    {"transform", T::array, optional, any, "steps, applied in the order written"}};
+const Fields transform_field = {{"transform",
+                                 T::array,
+                                 optional,
+                                 any,
+                                 "steps, applied in the order written",
+                                 {},
+                                 "transform step"}};
 
 Fields shape_fields(bool can_flip) {
   Fields fields = {
@@ -37,7 +42,7 @@ Fields shape_fields(bool can_flip) {
       {"material", T::text, optional, any, "a name from \"materials\""},
       transform_field[0],
       {"sides", T::integer, "2", {1, 2}, "1: black, but blocking, from behind (opaque materials)"},
-      {"emission", T::object, optional, any, "makes the surface a light"},
+      {"emission", T::object, optional, any, "makes the surface a light", {}, "emission"},
   };
   if (can_flip)
     fields.push_back({"flip", T::boolean, "false", any, "turns the front side to the back"});
@@ -59,14 +64,22 @@ std::vector<ObjectSpec> scene_specs() {
       {"scene",
        "a scene file",
        {
+           {"$schema", T::text, optional, any,
+            "for editors: where the JSON schema of this format is"},
            {"version", T::integer, required, {1, 1}, "version of the format"},
            {"description", T::text, optional, any, "why the scene is here"},
-           {"camera", T::object, required, any, "pinhole camera"},
-           {"film", T::object, "{}", any, "size and filter of the picture"},
-           {"integrator", T::object, "{}", any, "method and effort; the command line wins"},
-           {"materials", T::object, "{}", any, "materials by name"},
-           {"shapes", T::array, "[]", any, "surfaces"},
-           {"lights", T::array, "[]", any, "lights without a surface"},
+           {"camera", T::object, required, any, "pinhole camera", {}, "camera"},
+           {"film", T::object, "{}", any, "size and filter of the picture", {}, "film"},
+           {"integrator",
+            T::object,
+            "{}",
+            any,
+            "method and effort; the command line wins",
+            {},
+            "integrator"},
+           {"materials", T::map, "{}", any, "materials by name", {}, "material/"},
+           {"shapes", T::array, "[]", any, "surfaces", {}, "shape/"},
+           {"lights", T::array, "[]", any, "lights without a surface", {}, "light/"},
        }},
       {"camera",
        "pinhole camera",
@@ -114,7 +127,13 @@ std::vector<ObjectSpec> part_specs() {
        "exactly one of the keys",
        {
            {"translate", T::vector, optional, coordinate, "moves"},
-           {"rotate", T::object, optional, any, "turns about an axis through the origin"},
+           {"rotate",
+            T::object,
+            optional,
+            any,
+            "turns about an axis through the origin",
+            {},
+            "rotate"},
            {"scale", T::scale, optional, coordinate, "scales, per axis or alike; negative mirrors"},
            {"matrix", T::matrix, optional, coordinate, "4x4, row by row; last row 0 0 0 1"},
        }},
@@ -149,7 +168,8 @@ std::vector<ObjectSpec> part_specs() {
 
 std::vector<ObjectSpec> material_specs() {
   const Field reflectance{"reflectance", T::color, "0.5", unit, "share of light sent back"};
-  const Field texture{"texture", T::object, optional, any, "image that multiplies it"};
+  const Field texture{"texture", T::object, optional, any, "image that multiplies it",
+                      {},        "texture"};
   const Fields width = {
       {"roughness", T::number, optional, unit, "alpha = roughness^2; absent: smooth"},
       {"alpha", T::number, optional, unit, "GGX width; instead of roughness"},
@@ -193,7 +213,13 @@ std::vector<ObjectSpec> material_specs() {
        {
            type_field,
            {"diffuse", T::color, "0.5", unit, "share of the diffuse part"},
-           {"texture", T::object, optional, any, "image that multiplies the diffuse part"},
+           {"texture",
+            T::object,
+            optional,
+            any,
+            "image that multiplies the diffuse part",
+            {},
+            "texture"},
            {"specular", T::color, "0.2", unit, "share of the glossy part at normal incidence"},
            {"exponent", T::number, "50", {0, 1e6}, "sharpness of the glossy part"},
        }},
@@ -207,7 +233,7 @@ std::vector<ObjectSpec> blend_specs() {
        "weighted sum of two materials",
        {
            type_field,
-           {"materials", T::array, required, any, "two names from \"materials\""},
+           {"materials", T::names, required, any, "two names from \"materials\""},
            {"amount", T::number, "0.5", unit, "weight of the second; the first has the rest"},
        }},
       {"material/principled",
@@ -226,8 +252,8 @@ std::vector<ObjectSpec> blend_specs() {
 std::vector<ObjectSpec> solid_specs() {
   const Field center{"center", T::vector, "[0, 0, 0]", coordinate, "middle"};
   return {
-      {"shape/mesh", "triangles from an OBJ file",
-       join({{"file", T::text, required, any, "OBJ file, relative to the scene file"},
+      {"shape/mesh", "triangles from an OBJ or PLY file",
+       join({{"file", T::text, required, any, "OBJ or PLY file, relative to the scene file"},
              {"smooth", T::boolean, "true", any, "use the file's normals, where it has them"}},
             shape_fields(true))},
       {"shape/sphere", "exact sphere, front side outwards",
@@ -239,7 +265,8 @@ std::vector<ObjectSpec> solid_specs() {
             shape_fields(true))},
       {"shape/rectangle", "by corner and edges, or by center and size",
        join({{"corner", T::vector, optional, coordinate, "one corner"},
-             {"edges", T::array, optional, any, "the two edges from it; front side = e0 x e1"},
+             {"edges", T::edges, optional, coordinate,
+              "the two edges from it; front side = e0 x e1"},
              {"center", T::vector, optional, coordinate, "middle; lies in the xy plane, facing +z"},
              {"size", T::pair, optional, length, "extent along x and y"}},
             shape_fields(true))},

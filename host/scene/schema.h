@@ -17,8 +17,11 @@ enum class FieldType {
   pair,    ///< two numbers
   color,   ///< [r,g,b] linear Rec.709, one number (grey), or {"srgb": [r,g,b]}
   matrix,  ///< 16 numbers, row by row, for column vectors
-  object,
-  array,
+  edges,   ///< two vectors
+  names,   ///< two texts
+  object,  ///< of the kind Field::of
+  map,     ///< an object whose keys are names, and whose values are of the kind Field::of
+  array,   ///< a list of objects of the kind Field::of
 };
 
 /// Closed unless `open_low`. Numbers are always finite.
@@ -35,6 +38,7 @@ struct Field {
   Range range;           ///< of every number in the value; unused for other types
   const char* doc;       ///< unit and meaning
   std::vector<std::string> choices = {};
+  const char* of = "";  ///< an ObjectSpec, or with a '/' at its end a family, as in "light/"
 };
 inline constexpr const char* required = nullptr;
 inline constexpr const char* optional = "";

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/text.h"
 
 namespace pellucid {
@@ -72,6 +73,10 @@ std::string read_text_file(const std::string& path, const std::string& role,
   if (in.bad()) throw InputError(fmt::format("{} '{}': reading failed", role, shown));
   while (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
   return text;
+}
+
+SourceFile source_file(const std::string& path, const std::string& text) {
+  return {path, hash_hex(text)};
 }
 
 std::string list_choices(const std::vector<std::string>& choices) {

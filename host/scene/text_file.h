@@ -6,7 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "scene/scene.h"
+
 namespace pellucid {
+
+/// The file's entry in Scene::files.
+SourceFile source_file(const std::string& path, const std::string& text);
 
 /// Whether there is such a regular file and it is not too large: throws InputError, which says what
 /// the file was to be (`role`, such as "texture") and names near files in the same folder. Returns

@@ -15,7 +15,8 @@ sys.dont_write_bytecode = True
 # pylint: disable=wrong-import-position
 from harness import PELLUCID, QUICK, SOURCE, check, document, expect, run, run_tests
 
-COMMANDS = ("render", "devices", "info", "compare", "bench", "kernels")
+COMMANDS = ("render", "devices", "info", "compare", "bench", "merge", "kernels", "schema",
+            "completion")
 METHODS = ("naive", "nee", "path", "reference")
 
 

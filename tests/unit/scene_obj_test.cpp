@@ -9,25 +9,26 @@ namespace {
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-ObjModel load_model(const std::string& obj, const std::string& mtl = "", ObjOptions options = {}) {
+Model load_text_model(const std::string& obj, const std::string& mtl = "",
+                      ModelOptions options = {}) {
   const test::TempFolder folder;
   if (!mtl.empty()) folder.write("m.mtl", mtl);
   return load_obj(folder.write("m.obj", obj), options);
 }
 
-ObjModel load_bare(const std::string& obj) {
-  ObjOptions options;
-  options.ignore_materials = true;
-  return load_model(obj, "", options);
+Model load_bare(const std::string& obj) {
+  ModelOptions options;
+  options.materials = ModelMaterials::replaced;
+  return load_text_model(obj, "", options);
 }
 
 /// The one material that an MTL text becomes.
-ObjModel load_material(const std::string& mtl) {
-  return load_model("mtllib m.mtl\n" + square + "usemtl a\nf 1 2 3 4\n", "newmtl a\n" + mtl);
+Model load_material(const std::string& mtl) {
+  return load_text_model("mtllib m.mtl\n" + square + "usemtl a\nf 1 2 3 4\n", "newmtl a\n" + mtl);
 }
 
 TEST(SceneObj, OnePartPerObjectAndMaterial) {
-  const ObjModel model = load_model(
+  const Model model = load_text_model(
       "mtllib m.mtl\n" + square +
           "o one\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\no two\nf -4 -3 -2 -1\n",
       "newmtl unused\nKd 1 0 0\nnewmtl a\nKd 0.1 0.2 0.3\nnewmtl b\nKd 0.4 0.4 0.4\nKe 1 2 3\n");
@@ -46,13 +47,13 @@ TEST(SceneObj, OnePartPerObjectAndMaterial) {
 
 TEST(SceneObj, NormalsAreUsedWhereGiven) {
   const std::string text = square + "vn 0 0 2\nf 1//1 2//1 3//1\nf 1 3 4\n";
-  const ObjModel smooth = load_bare(text);
+  const Model smooth = load_bare(text);
   ASSERT_EQ(smooth.parts[0].mesh.normals.size(), smooth.parts[0].mesh.positions.size());
   for (const glm::dvec3& n : smooth.parts[0].mesh.normals) EXPECT_EQ(n, glm::dvec3(0, 0, 1));
-  ObjOptions flat;
-  flat.ignore_materials = true;
+  ModelOptions flat;
+  flat.materials = ModelMaterials::replaced;
   flat.use_normals = false;
-  EXPECT_TRUE(load_model(text, "", flat).parts[0].mesh.normals.empty());
+  EXPECT_TRUE(load_text_model(text, "", flat).parts[0].mesh.normals.empty());
   EXPECT_TRUE(load_bare(square + "f 1 2 3\n").parts[0].mesh.normals.empty());
 }
 
@@ -121,7 +122,7 @@ TEST(SceneObj, BadFilesSayWhereAndWhy) {
 
 TEST(SceneObj, MaterialErrorsNameTheRemedy) {
   const auto error = [](const std::string& obj, const std::string& mtl) {
-    return test::input_error([&] { load_model(obj, mtl); });
+    return test::input_error([&] { load_text_model(obj, mtl); });
   };
   const std::string face = "usemtl a\nf 1 2 3\n";
   EXPECT_NE(error("mtllib gone.mtl\n" + square + face, "").find("gone.mtl' does not exist"),

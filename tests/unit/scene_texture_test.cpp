@@ -69,7 +69,7 @@ TEST(SceneTexture, RowsAreTurnedSoThatTheBottomComesFirst) {
   EXPECT_EQ(texture.offset, glm::dvec2(0));
   EXPECT_EQ(std::get<Mesh>(scene.shapes[0].geometry).uvs.size(), 4u);
   EXPECT_EQ(scene.files.size(), 2u) << "the image is part of the scene's identity";
-  EXPECT_EQ(scene.files[1], folder.path() + "/a.exr");
+  EXPECT_EQ(scene.files[1].path, folder.path() + "/a.exr");
 }
 
 TEST(SceneTexture, AllKeys) {
@@ -364,11 +364,12 @@ TEST(SceneTexture, FacesWithoutCoordinatesAreTold) {
 }
 
 TEST(SceneTexture, CornersAreSharedUnlessCoordinatesDiffer) {
-  ObjOptions options;
-  options.ignore_materials = options.textured = true;
+  ModelOptions options;
+  options.materials = ModelMaterials::replaced;
+  options.textured = true;
   const TempFolder folder;
   const std::string path = folder.write("m.obj", square + "f 1/1 2/2 3/3\nf 1/1 3/4 4/4\n");
-  const ObjModel model = load_obj(path, options);
+  const Model model = load_obj(path, options);
   EXPECT_EQ(model.parts[0].mesh.positions.size(), 5u) << "vertex 3 has two";
   options.textured = false;
   EXPECT_EQ(load_obj(path, options).parts[0].mesh.positions.size(), 4u);

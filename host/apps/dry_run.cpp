@@ -1,0 +1,85 @@
+// The plan of a render in words and as JSON.
+#include "apps/dry_run.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/common.h"
+#include "apps/scene_report.h"
+#include "base/text.h"
+#include "integrators/reach.h"
+
+namespace pellucid {
+namespace {
+
+nlohmann::json as_json(const RenderFacts& f, FeatureSet features, const MemoryPlan& memory,
+                       const std::vector<std::string>& outputs) {
+  using nlohmann::json;
+  json kernels = json::array();
+  for (const Pass& pass : f.integrator->passes) kernels.push_back(pass.name);
+  const RenderOptions& o = f.options;
+  return {{"dry_run", true},
+          {"scene", f.scene->name},
+          {"file", f.scene->path},
+          {"scene_hash", f.scene_hash},
+          {"integrator", f.integrator->name},
+          {"width", o.width},
+          {"height", o.height},
+          {"crop", {o.window().x0, o.window().y0, o.window().width, o.window().height}},
+          {"spp", o.passes ? json(o.passes->last - o.passes->first) : json()},
+          {"time", o.seconds ? json(*o.seconds) : json()},
+          {"seed", o.seed},
+          {"max_depth", o.max_depth ? json(*o.max_depth) : json()},
+          {"mis", mis_name(o.mis)},
+          {"device", f.device->name},
+          {"driver", f.device->platform_name + " " + f.device->driver},
+          {"device_limits", device_facts(*f.device)},
+          {"features", feature_flags(features, all_features())},
+          {"kernels", kernels},
+          {"memory_bytes", memory.buffers},
+          {"memory_total", memory.device_bytes()},
+          {"film_bytes", memory.film_bytes},
+          {"tiles", memory.tiles.size()},
+          {"unreachable", unreachable_paths(*f.integrator, f.packed->features)},
+          {"warnings", f.scene->warnings},
+          {"outputs", outputs}};
+}
+
+std::string as_text(const RenderFacts& f, FeatureSet features, const MemoryPlan& memory,
+                    const std::vector<std::string>& outputs) {
+  const RenderOptions& o = f.options;
+  std::vector<std::string> kernels, budget;
+  for (const Pass& pass : f.integrator->passes) kernels.push_back(pass.name);
+  if (o.passes) budget.push_back(fmt::format("{} spp", o.passes->last - o.passes->first));
+  if (o.seconds) budget.push_back(format_seconds(*o.seconds));
+  std::string text = fmt::format(
+      "{}\n  scene     {}, hash {}\n  method    {}, mis {}, seed {}, max depth {}\n"
+      "  film      {}x{}, {}\n  device    {} {}, {} {}\n  features  {}\n  kernels   {}\n"
+      "  memory    {}\n",
+      f.scene->name, f.scene->path, f.scene_hash, f.integrator->name, mis_name(o.mis), o.seed,
+      o.max_depth ? std::to_string(*o.max_depth) : "unlimited", o.width, o.height,
+      join(budget, " or "), f.device->spec(), f.device->name, f.device->platform_name,
+      f.device->driver, features.describe(), join(kernels), memory_text(memory.buffers, *f.device));
+  if (memory.tiles.size() > 1) text += fmt::format("  bands     {}\n", memory.tiles.size());
+  for (const std::string& what : unreachable_paths(*f.integrator, f.packed->features))
+    text += fmt::format("  unseen    {}\n", what);
+  for (const std::string& name : outputs) text += fmt::format("  output    {}\n", name);
+  return text;
+}
+
+}  // namespace
+
+void tell_plan(const RenderFacts& f, const std::vector<std::string>& outputs,
+               const CommonOptions& common) {
+  const RenderOptions& o = f.options;
+  const MemoryPlan memory = plan_memory(*f.device, *f.packed, *f.integrator, o.window(), o.memory);
+  const Specialisation special = specialise(*f.packed, *f.integrator, *f.device, o.plan);
+  const KernelFiles files(o.plan.kernel_dir);
+  for (const Pass& pass : f.integrator->passes)  // a missing file shows
+    files.expand("passes/" + pass.name + ".cl", prelude_of(special));
+  if (common.wants_text()) print_result(as_text(f, special.features, memory, outputs));
+  write_json(common.json, as_json(f, special.features, memory, outputs));
+}
+
+}  // namespace pellucid
