@@ -16,4 +16,7 @@ ExitCode scene_info(const std::string& file, const LoadOptions& options, const D
 /// info_image.cpp: size, metadata, statistics of every channel.
 ExitCode image_info(const std::string& file, const CommonOptions& common);
 
+/// info_checkpoint.cpp: passes, missing ones, identity, counters.
+ExitCode checkpoint_info(const std::string& file, const CommonOptions& common);
+
 }  // namespace pellucid

@@ -17,7 +17,7 @@
 #define COMMANDS(X)                                                          \
   X(render, "render a scene to pictures")                                    \
   X(devices, "the OpenCL devices here and what they can do")                 \
-  X(info, "what is in a scene or an image")                                  \
+  X(info, "what is in a scene, an image or a checkpoint")                    \
   X(compare, "error of image A against reference B, with gates for scripts") \
   X(bench, "speed of this device, beside Embree where present")              \
   X(merge, "checkpoints of disjoint passes to one picture")                  \

@@ -17,6 +17,7 @@ namespace {
 
 struct MergeFlags {
   std::vector<std::string> inputs, outputs, aovs;
+  DisplayFlags display;
   bool deterministic = false;
 };
 
@@ -53,6 +54,7 @@ Image picture_of(const Checkpoint& c, const MergeFlags& flags) {
     return std::find(flags.aovs.begin(), flags.aovs.end(), aov) != flags.aovs.end();
   };
   Image image = film_image(c.film, asked("variance"), asked("samples"));
+  add_channels(image, c.aovs);
   image.metadata = c.evidence;
   add_progress(c.film, summarise(c.film), c.counters, c.seconds, image.metadata);
   if (flags.deterministic) make_deterministic(image.metadata);
@@ -68,11 +70,13 @@ ExitCode merge(const MergeFlags& flags, const CommonOptions& common) {
   check_picture_types(pictures);
   for (const std::string& aov : flags.aovs)
     if (aov != "variance" && aov != "samples")
-      throw UsageError("--aov: there is no '" + aov + "'; there are variance, samples");
+      throw UsageError("--aov: there is no '" + aov +
+                       "' to add; there are variance, samples, and what the checkpoints bring");
+  const DisplayTransform display = flags.display.transform();
   Checkpoint all = merged(flags.inputs);
   warn_of_gaps(all.film.passes);
   for (const std::string& name : checkpoints) write_checkpoint(name, all);
-  if (!pictures.empty()) write_pictures(pictures, picture_of(all, flags), {});
+  if (!pictures.empty()) write_pictures(pictures, picture_of(all, flags), display);
   log_info("{} files, passes {}", flags.inputs.size(), all.film.passes.text());
   if (common.wants_text())
     for (const std::string& name : flags.outputs) print_result(name + "\n");
@@ -95,9 +99,11 @@ CommandRun setup_merge(CLI::App& app) {
       ->required()
       ->allow_extra_args(false);
   app.add_option("--aov", flags->aovs,
-                 "further EXR channels: variance (of each pixel's mean), samples")
+                 "further EXR channels beside those that the checkpoints bring: variance (of each "
+                 "pixel's mean), samples")
       ->type_name("LIST")
       ->delimiter(',');
+  flags->display.declare(app);
   app.add_flag("--deterministic", flags->deterministic,
                "leave time, host and device out of the image");
   app.footer("Example: pellucid merge a.ckpt b.ckpt -o whole.exr -o whole.png");

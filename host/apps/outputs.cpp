@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <exception>
 
+#include "apps/common.h"
 #include "base/error.h"
 #include "base/text.h"
 
@@ -71,6 +73,27 @@ void write_pictures(const std::vector<std::string>& names, const Image& linear,
     }
   }
   if (first) std::rethrow_exception(first);
+}
+
+void DisplayFlags::declare(CLI::App& app) {
+  app.add_option("--exposure", exposure,
+                 "brighter by so many stops (negative: darker); display pictures only")
+      ->type_name("EV");
+  app.add_option(
+         "--tonemap", tonemap,
+         "curve of display pictures: the sRGB one alone, filmic highlights before it, or none "
+         "(linear values, clipped)")
+      ->type_name("srgb|filmic|none");
+}
+
+DisplayTransform DisplayFlags::transform() const {
+  constexpr double most = 100;  // 2^100 is beyond the range between float's black and white
+  DisplayTransform d;
+  d.curve = parse_tone_curve("--tonemap", tonemap);
+  if (!exposure.empty()) d.exposure = parse_number("--exposure", exposure);
+  if (std::abs(d.exposure) > most)
+    throw UsageError(fmt::format("--exposure takes stops from -100 to 100, not '{}'", exposure));
+  return d;
 }
 
 }  // namespace pellucid

@@ -1,6 +1,7 @@
 // Pictures as files: which suffixes there are, whether the files can be written, and writing them.
 #pragma once
 
+#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,15 @@ bool is_picture_name(const std::string& name);
 
 /// The curve by its name. Throws UsageError that lists the names.
 ToneCurve parse_tone_curve(const std::string& option, const std::string& name);
+
+/// --exposure and --tonemap.
+struct DisplayFlags {
+  std::string exposure, tonemap = "srgb";
+
+  void declare(CLI::App& app);
+  /// Throws UsageError.
+  DisplayTransform transform() const;
+};
 
 /// Writes a linear image to every name; `display` acts where the type holds display values. One
 /// that fails does not keep the others from being written; the first OutputError is thrown at the

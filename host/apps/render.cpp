@@ -108,7 +108,7 @@ void RenderJob::write_pictures_of(const Film& film) {
   add_progress(film, facts_.film, facts_.session->counters(), facts_.seconds.render,
                image.metadata);
   if (flags_.deterministic) make_deterministic(image.metadata);
-  write_pictures(names_, image, flags_.display());
+  write_pictures(names_, image, flags_.display.transform());
 }
 
 void RenderJob::write_checkpoint_of(const Film& film) {
@@ -117,7 +117,7 @@ void RenderJob::write_checkpoint_of(const Film& film) {
                         lasting_evidence(facts_),
                         facts_.session->counters(),
                         facts_.seconds.render,
-                        {}};
+                        aovs_};
   write_checkpoint(flags_.checkpoint, checkpoint);
 }
 

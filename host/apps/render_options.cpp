@@ -157,14 +157,7 @@ void RenderFlags::declare_files(CLI::App& app) {
          "render the global passes A to B-1 only, so that several runs share the work of one "
          "(see `merge`); a pass is one sample per pixel")
       ->type_name("A:B");
-  app.add_option("--exposure", exposure,
-                 "brighter by so many stops (negative: darker); display pictures only")
-      ->type_name("EV");
-  app.add_option(
-         "--tonemap", tonemap,
-         "curve of display pictures: the sRGB one alone, filmic highlights before it, or none "
-         "(linear values, clipped)")
-      ->type_name("srgb|filmic|none");
+  display.declare(app);
 }
 
 LoadOptions RenderFlags::load_options() const {
@@ -198,16 +191,6 @@ RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) con
   return o;
 }
 
-DisplayTransform RenderFlags::display() const {
-  constexpr double most = 100;  // 2^100 is beyond the range between float's black and white
-  DisplayTransform d;
-  d.curve = parse_tone_curve("--tonemap", tonemap);
-  if (!exposure.empty()) d.exposure = parse_number("--exposure", exposure);
-  if (std::abs(d.exposure) > most)
-    throw UsageError(fmt::format("--exposure takes stops from -100 to 100, not '{}'", exposure));
-  return d;
-}
-
 std::vector<std::string> RenderFlags::output_names(const Scene& s) const {
   if (outputs.empty()) return {s.name + ".exr", s.name + ".png"};
   check_picture_types(outputs);
@@ -223,7 +206,7 @@ void RenderFlags::check() const {
   parse_duration("--every", every);
   for (const std::string& aov : aovs) one_of("--aov", aov, aov_names());
   one_of("--sampler", sampler, sampler_names());
-  display();
+  display.transform();
 }
 
 }  // namespace pellucid

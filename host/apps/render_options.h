@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/device_input.h"
-#include "image/tonemap.h"
+#include "apps/outputs.h"
 #include "render/session.h"
 #include "scene/load.h"
 
@@ -17,9 +17,10 @@ namespace pellucid {
 struct RenderFlags {
   std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, size, crop,
                                  passes, features = "auto", kernel_dir, stats, memory, checkpoint,
-                                 every = "60s", exposure, tonemap = "srgb";
+                                 every = "60s";
   std::vector<std::string> overrides, outputs, aovs;
   DeviceFlags device;
+  DisplayFlags display;
   std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0;
   bool strict = false, deterministic = false, resume = false, dry_run = false;
 
@@ -33,8 +34,6 @@ struct RenderFlags {
   RenderOptions options(const Scene& scene, const Integrator& method) const;
   /// Seconds between two checkpoints.
   double checkpoint_period() const;
-  /// How display pictures are made.
-  DisplayTransform display() const;
   /// Pictures to write; the default ones are named after the scene.
   std::vector<std::string> output_names(const Scene& scene) const;
 

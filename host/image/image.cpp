@@ -113,6 +113,11 @@ WordImage read_words(const std::string& path) {
   return words;
 }
 
+bool holds_words(const std::string& path) {
+  WordImage words;
+  return plugin().read_words(path, words).empty();
+}
+
 void write_words(const std::string& path, const WordImage& words) {
   PELLUCID_CHECK(words.width > 0 && words.height > 0 &&
                      words.data.size() == std::size_t(words.width) * std::size_t(words.height) *

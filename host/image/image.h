@@ -75,6 +75,8 @@ void write_image(const std::string& path, const Image& image);
 /// sums have little to gain. Errors and atomicity as above; reading also fails where a channel is
 /// of another type.
 WordImage read_words(const std::string& path);
+/// Whether the file is one of these, and whole.
+bool holds_words(const std::string& path);
 void write_words(const std::string& path, const WordImage& words);
 
 }  // namespace pellucid

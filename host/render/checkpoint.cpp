@@ -88,11 +88,10 @@ Planes planes_of(const Checkpoint& checkpoint) {
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t w = 0; w < FILM_SUM_WORDS; ++w)
         planes.add(open_name(block, c, w), [&, &s = sums](std::size_t i) { return s[i][c][w]; });
-  const Image& aovs = checkpoint.aovs;
-  for (std::size_t a = 0; a < aovs.channels.size(); ++a)
-    planes.add("aov." + aovs.channels[a], [&](std::size_t i) {
+  for (const AovChannel& aov : checkpoint.aovs)
+    planes.add("aov." + aov.name, [&](std::size_t i) {
       uint bits;
-      std::memcpy(&bits, &aovs.data[i * aovs.channels.size() + a], sizeof bits);
+      std::memcpy(&bits, &aov.data[i], sizeof bits);
       return bits;
     });
   return planes;
@@ -181,24 +180,19 @@ void read_open_blocks(const WordImage& words, const Facts& facts, Film& film) {
     }
 }
 
-Image read_aovs(const WordImage& words, const Facts& facts) {
-  Image aovs;
-  aovs.width = words.width;
-  aovs.height = words.height;
+std::vector<AovChannel> read_aovs(const WordImage& words, const Facts& facts) {
+  std::vector<AovChannel> aovs;
   const std::string list = facts.text("aovs");
-  if (list == no_aovs) return aovs;
-  for (std::size_t begin = 0; begin < list.size();) {
-    const std::size_t end = std::min(list.find(' ', begin), list.size());
-    aovs.channels.push_back(list.substr(begin, end - begin));
-    begin = end + 1;
-  }
   const std::size_t pixels = std::size_t(words.width) * std::size_t(words.height);
-  aovs.data.resize(pixels * aovs.channels.size());
-  for (std::size_t a = 0; a < aovs.channels.size(); ++a) {
-    const int from = words.channel("aov." + aovs.channels[a]);
+  for (std::size_t begin = 0; list != no_aovs && begin < list.size();) {
+    const std::size_t end = std::min(list.find(' ', begin), list.size());
+    AovChannel aov{list.substr(begin, end - begin), std::vector<float>(pixels)};
+    begin = end + 1;
+    const int from = words.channel("aov." + aov.name);  // left out where it is 0 everywhere
     for (std::size_t i = 0; from >= 0 && i < pixels; ++i)
-      std::memcpy(&aovs.data[i * aovs.channels.size() + a],
-                  &words.data[i * words.channels.size() + std::size_t(from)], sizeof(uint));
+      std::memcpy(&aov.data[i], &words.data[i * words.channels.size() + std::size_t(from)],
+                  sizeof(uint));
+    aovs.push_back(std::move(aov));
   }
   return aovs;
 }
@@ -235,9 +229,9 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
   put("passes", film.passes.text()), put("open", open.text());
   put("current", film.current ? std::to_string(*film.current) : "none");
   put("seconds", fmt::format("{}", checkpoint.seconds));
-  put("aovs", checkpoint.aovs.channels.empty()
-                  ? no_aovs
-                  : fmt::format("{}", fmt::join(checkpoint.aovs.channels, " ")));
+  std::vector<std::string> aovs;
+  for (const AovChannel& aov : checkpoint.aovs) aovs.push_back(aov.name);
+  put("aovs", aovs.empty() ? no_aovs : fmt::format("{}", fmt::join(aovs, " ")));
   for (const auto& [name, value] : checkpoint.identity) put("identity." + name, value);
   for (const Counter& c : checkpoint.counters) put("counter." + c.name, std::to_string(c.count));
   put("hash", content_hash(words));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "render/aov.h"
 #include "render/diagnostics.h"
 #include "render/film.h"
 #include "render/integrator.h"
@@ -20,7 +21,7 @@ struct Checkpoint {
   std::map<std::string, MetaValue> evidence;  ///< metadata of the picture so far
   std::vector<Counter> counters = make_counters();
   double seconds = 0;  ///< render time of all passes
-  Image aovs;          ///< channels beside the film's, as finished; may have none
+  std::vector<AovChannel> aovs;  ///< channels beside the film's, which no pass changes
 };
 
 /// Sentence on the first thing in which two identities differ, or "".

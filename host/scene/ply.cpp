@@ -251,9 +251,9 @@ class PlyMesh {
   }
 
   void read_vertices(const Element& element) {
-    // Texture coordinates (u v, s t) join here as soon as meshes have them.
-    static const char* const known[] = {"x", "y", "z", "nx", "ny", "nz"};
-    constexpr int count = 6;
+    static const char* const known[] = {"x", "y", "z", "nx", "ny",        "nz",
+                                        "u", "v", "s", "t",  "texture_u", "texture_v"};
+    constexpr int count = 12, first_uv = 6;  // three spellings of texture coordinates
     std::vector<int> slots;
     bool found[count] = {};
     for (const Property& property : element.properties) {
@@ -264,6 +264,8 @@ class PlyMesh {
     }
     if (!found[0] || !found[1] || !found[2]) text_.fail("vertices need the properties x, y and z");
     has_normals = found[3] && found[4] && found[5];
+    int uv = first_uv;
+    while (uv < count && !(found[uv] && found[uv + 1])) uv += 2;
     mesh.positions.reserve(std::min<std::uint64_t>(element.count, text_.bytes_left()));
     for (std::uint64_t i = 0; i < element.count; ++i) {
       double values[count + 1] = {};
@@ -274,6 +276,7 @@ class PlyMesh {
       text_.end_element();
       mesh.positions.emplace_back(values[0], values[1], values[2]);
       if (has_normals) mesh.normals.emplace_back(values[3], values[4], values[5]);
+      if (uv < count) mesh.uvs.emplace_back(values[uv], values[uv + 1]);
     }
   }
 
@@ -345,6 +348,7 @@ Model load_ply(const std::string& path, const ModelOptions& options) {
   PlyMesh read(text, elements);
   if (read.mesh.triangles.empty()) throw InputError(fmt::format("{}: the file has no faces", path));
   if (!options.use_normals || !read.has_normals) read.mesh.normals.clear();
+  if (!options.textured) read.mesh.uvs.clear();
   finish_normals(read.mesh);
   Model model;
   model.files.push_back(source_file(path, data));

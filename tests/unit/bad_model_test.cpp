@@ -31,9 +31,9 @@ class BadModel : public ::testing::Test {
     return message;
   }
 
-  static void expect_finite(const ObjModel& model) {
+  static void expect_finite(const Model& model) {
     EXPECT_FALSE(model.parts.empty());
-    for (const ObjPart& part : model.parts) {
+    for (const ModelPart& part : model.parts) {
       for (const glm::dvec3& p : part.mesh.positions)
         EXPECT_TRUE(std::isfinite(p.x + p.y + p.z) && std::abs(p.x) <= largest_length);
       for (const glm::dvec3& n : part.mesh.normals) EXPECT_NEAR(glm::length(n), 1.0, 1e-6);
