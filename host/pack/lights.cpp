@@ -94,7 +94,7 @@ int brightness_exponent(const PackedScene& scene) {
   for (const ::Light& light : scene.lights) {
     double value = std::max({light.value.x, light.value.y, light.value.z});
     const double r = scene.info.center_radius.w > 0.0f ? scene.info.center_radius.w : 1.0;
-    if (light.kind == LIGHT_POINT) value /= r * r;
+    if (light.kind == LIGHT_POINT || light.kind == LIGHT_SPOT) value /= r * r;
     brightest = std::max(brightest, value);
   }
   int exponent = 0;

@@ -20,7 +20,7 @@ struct Checkpoint {
   std::map<std::string, std::string> identity;
   std::map<std::string, MetaValue> evidence;  ///< metadata of the picture so far
   std::vector<Counter> counters = make_counters();
-  double seconds = 0;  ///< render time of all passes
+  double seconds = 0;            ///< render time of all passes
   std::vector<AovChannel> aovs;  ///< channels beside the film's, which no pass changes
 };
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "scene/obj.h"
 #include "scene/ply.h"
+#include "scene/text_file.h"
 
 namespace pellucid {
 namespace {
@@ -31,7 +32,8 @@ Model load_model(const std::string& path, const ModelOptions& options) {
   const std::string suffix = lower_suffix(path);
   if (suffix == ".obj") return load_obj(path, options);
   if (suffix == ".ply") return load_ply(path, options);
-  throw InputError(fmt::format("'{}': models are read from .obj and .ply files", path));
+  throw InputError(
+      fmt::format("'{}': models are read from .obj and .ply files", printable(path, 1000)));
 }
 
 }  // namespace pellucid

@@ -66,11 +66,13 @@ INLINE U4 sobol_words(Rng rng, uint dimension) {
   // Coefficients of b1 only count in the lowest bit of a nibble; here are their other bits.
   uint flips = (c.y & 0xeeeeu) | ((c.z >> 1) & 0x1111u);
   uint p = owen_nibbles(sobol_nibbles(owen_index(rng.iteration % SOBOL_BLOCK, flips)), c);
+  // x >> 4 as a product: with a shift, compilers make funnel shifts, which Oclgrind does not know.
+  const uint sixteenth = 0x10000000u;
   U4 v;
-  v.x = (p << 28) | (below.x >> 4);
-  v.y = ((p >> 4) << 28) | (below.y >> 4);
-  v.z = ((p >> 8) << 28) | (below.z >> 4);
-  v.w = ((p >> 12) << 28) | (below.w >> 4);
+  v.x = (p << 28) | high_word(below.x, sixteenth);
+  v.y = ((p >> 4) << 28) | high_word(below.y, sixteenth);
+  v.z = ((p >> 8) << 28) | high_word(below.z, sixteenth);
+  v.w = ((p >> 12) << 28) | high_word(below.w, sixteenth);
   return v;
 }
 

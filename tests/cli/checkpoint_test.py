@@ -131,22 +131,22 @@ def test_wrong_files():
     room = read_json("room.json")
     room["camera"]["fov"] = 80
     write_text("other.json", str(room).replace("'", '"'))
-    expect(3, ["render", "other.json", "--checkpoint", "a.ckpt", "--resume", "-o", "x.exr"],
+    expect(3, ["render", "other.json", "--checkpoint", "a.ckpt", "--resume", "-o", "never.exr"],
            "a.ckpt", "scene")
     check(read_bytes("a.ckpt") == old, "a refused checkpoint is not touched")
     render("b", "--passes", "2:6", "--checkpoint", "b.ckpt")
-    expect(3, ["merge", "a.ckpt", "b.ckpt", "-o", "x.exr"], "a.ckpt", "b.ckpt", "share passes")
-    expect(3, ["merge", "a.ckpt", "a.ckpt", "-o", "x.exr"], "share passes")
+    expect(3, ["merge", "a.ckpt", "b.ckpt", "-o", "never.exr"], "a.ckpt", "b.ckpt", "share passes")
+    expect(3, ["merge", "a.ckpt", "a.ckpt", "-o", "never.exr"], "share passes")
     render("c", "--passes", "6:8", "--seed", "1", "--checkpoint", "c.ckpt")
-    expect(3, ["merge", "a.ckpt", "c.ckpt", "-o", "x.exr"], "a.ckpt", "c.ckpt", "seed")
-    expect(3, ["merge", "a.exr", "-o", "x.exr"], "a.exr")
-    expect(3, ["merge", "none.ckpt", "-o", "x.exr"], "none.ckpt")
+    expect(3, ["merge", "a.ckpt", "c.ckpt", "-o", "never.exr"], "a.ckpt", "c.ckpt", "seed")
+    expect(3, ["merge", "a.exr", "-o", "never.exr"], "a.exr")
+    expect(3, ["merge", "none.ckpt", "-o", "never.exr"], "none.ckpt")
     expect(2, ["merge", "a.ckpt"], "--output")
     expect(2, ["merge", "a.ckpt", "-o", "x.gif"], "x.gif")
     expect(5, ["merge", "a.ckpt", "-o", "no/x.exr"], "no/x.exr")
     render("d", "--passes", "9:12", "--checkpoint", "d.ckpt")
     expect(0, ["merge", "a.ckpt", "d.ckpt", "-o", "gap.exr"], "passes 4:9 are missing")
-    check(not os.path.exists("x.exr"), "nothing is written after an error")
+    check(not os.path.exists("never.exr"), "nothing is written after an error")
 
 
 def test_damaged():

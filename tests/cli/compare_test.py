@@ -126,7 +126,7 @@ def test_failures():
     expect(3, ["compare", "cut.pfm", good], "cut.pfm")
     expect(3, ["compare", "smaller.pfm", good], "smaller.pfm", good, "7x4 against 8x4")
     expect(5, ["compare", good, good, "-o", "no/diff.png"], "no/diff.png", "No such file")
-    expect(5, ["compare", good, good, "-o", "diff.nonsense"], "diff.nonsense")
+    expect(2, ["compare", good, good, "-o", "diff.nonsense"], "diff.nonsense")
     expect(5, ["compare", good, good, "--json", "no/x.json"], "no/x.json", "No such file")
     with open("/dev/full", "w", encoding="ascii") as full:
         expect(5, ["compare", good, good], "standard output", "No space left", stdout=full)

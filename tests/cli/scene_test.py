@@ -78,7 +78,7 @@ def test_any_scale_and_aspect():
         # Only rounding differs; a few pixels of the outline may fall to the other side.
         check(abs(mean - reference) < 2 and edge == {137}, f"scale {scale}", mean, reference, edge)
     for size in ("96x24", "24x96"):
-        expect(0, ["box.obj", "--spp", "4", "--size", size, "-q", "-o", "aspect.ppm"])
+        expect(0, ["box.obj", "--spp", "4", "--size", size, "--filter", "box", "-q", "-o", "aspect.ppm"])
         check(mean_and_edge("aspect.ppm")[1] == {137}, f"all visible at {size}")
 
 

@@ -143,10 +143,14 @@ Picture Renderer::render(const Sampling& run) {
   launch.max_depth = run.max_depth.value_or(NONE);
   launch.mis = run.mis;
   launch.film_lsb = packed_.brightness_exponent - FILM_FRACTION_BITS;
-  Film film(build_.width, build_.height, {0, 0, build_.width, build_.height}, launch.film_lsb, 1);
+  const std::uint64_t block = plan_.specialisation().features.has(INTG_SOBOL) ? SOBOL_BLOCK : 1u;
+  Film film(build_.width, build_.height, {0, 0, build_.width, build_.height}, launch.film_lsb,
+            block);
+  EXPECT_EQ(run.spp % block, 0u) << "pictures are made of whole blocks";
   plan_.write_film(film.pixels.data(), film.pixels.size());
   for (std::uint64_t i = 0; i < run.spp; ++i) {
     launch.iteration = uint(i);
+    launch.block_ends = (i + 1) % block == 0;
     plan_.enqueue(launch);
     if (i % queue_length == queue_length - 1) plan_.finish();
   }

@@ -156,6 +156,7 @@ TEST(PackLayout, NormalsStandBesideTheirPositions) {
 
 FeatureSet features_of(const Shape& shape, const Material& material) {
   Scene scene;
+  scene.settings.filter = PixelFilter::box;  // which needs no code
   scene.materials = {material};
   scene.shapes = {shape};
   scene.shapes[0].material = 0;
@@ -212,6 +213,7 @@ TEST(PackMaterials, MixesBecomeListsOfParts) {
   Material one = outer;
   one.parts[0].weight = 1, one.parts[1].weight = 0;
   Scene scene;
+  scene.settings.filter = PixelFilter::box;
   scene.materials = {part(MaterialKind::phong, 1), outer, one};
   const PackedScene s = pack_scene(scene, {8});
   ASSERT_EQ(s.materials.size(), 6u);

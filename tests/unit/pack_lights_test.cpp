@@ -95,6 +95,7 @@ TEST(PackLights, PowerOfEveryKind) {
   Mesh square =
       test::baked({{{0, 0, 9}, {2, 0, 9}, {2, 3, 9}, {0, 3, 9}}, {}, {{0, 1, 2}, {0, 2, 3}}});
   add_shape(scene, square).emission = Emission{Rgb(1.0), 1};
+  scene.settings.filter = PixelFilter::box;
   scene.lights = {PointLight{{0, 0, 5}, Rgb(7.0)}, DirectionalLight{{0, 0, -1}, Rgb(0.1)},
                   ConstantEnvironment{Rgb(0.01)},
                   SpotLight{{0, 0, 5}, {0, 0, -1}, Rgb(20.0), 0.3, 0.5}};

@@ -352,7 +352,7 @@ TEST(SceneTexture, FacesWithoutCoordinatesAreTold) {
   EXPECT_TRUE(mesh_of(l.scene).uvs.empty());
   const Loaded glass = load_mtl("d 0.5\nmap_Kd a.exr\n");
   ASSERT_EQ(glass.scene.warnings.size(), 1u);
-  expect_part(glass.scene.warnings[0], "glass and mirrors");
+  expect_part(glass.scene.warnings[0], "glass, metal and mirrors");
   // What the scene itself asks for must be possible.
   const TempFolder folder;
   write_picture(folder, "a.exr", 1, 1, rgb, {1, 1, 1});
