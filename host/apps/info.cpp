@@ -1,5 +1,6 @@
 // info: what is in a scene, an image or a checkpoint, and what rendering it would take.
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "apps/command.h"
@@ -14,6 +15,8 @@ namespace {
 bool is_openexr(const std::string& file) {
   constexpr char magic[] = {0x76, 0x2f, 0x31, 0x01};
   char first[sizeof magic] = {};
+  std::error_code ignored;  // a pipe can be read only once
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;
   std::ifstream(file, std::ios::binary).read(first, sizeof first);
   return std::equal(magic, magic + sizeof magic, first);
 }

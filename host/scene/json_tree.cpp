@@ -113,8 +113,10 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     } else {
       why = why.substr(std::min(why.find("] ") + 2, why.size()));
     }
+    constexpr std::size_t longest_reason = 500;  // it may quote the rest of the file
     const std::size_t offset = position > 0 ? position - 1 : 0;
-    fail_at(*source_, std::min(offset, source_->text.size()), "", "not valid JSON: " + why);
+    fail_at(*source_, std::min(offset, source_->text.size()), "",
+            "not valid JSON: " + printable(why, longest_reason));
   }
 
  private:

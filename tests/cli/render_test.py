@@ -243,7 +243,7 @@ def project(point, matrix):
 
 def test_evidence():
     expect(0, [*QUICK, "--seed", "9", "--sampler", "random", "-o", "full.exr"])
-    expect(0, [*QUICK, "--seed", "9", "--deterministic", "-o", "bare.exr"])
+    expect(0, [*QUICK, "--seed", "9", "--sampler", "random", "--deterministic", "-o", "bare.exr"])
     full = document(["info", "full.exr"])["metadata"]
     bare = document(["info", "bare.exr"])["metadata"]
     ours = ["samplesPerPixel", "worldToCamera", "worldToNDC"] + [
