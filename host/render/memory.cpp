@@ -28,7 +28,7 @@ std::uint64_t total(const std::map<std::string, std::size_t>& buffers) {
 }
 
 /// Why these buffers do not fit, or "".
-std::string objection(const DeviceInfo& device, std::uint64_t limit,
+std::string objection(const DeviceInfo& device, std::uint64_t limit, bool asked,
                       const std::map<std::string, std::size_t>& buffers) {
   for (const auto& [name, bytes] : buffers)
     if (bytes > device.max_buffer)
@@ -36,18 +36,22 @@ std::string objection(const DeviceInfo& device, std::uint64_t limit,
                          format_bytes(bytes), device.name, format_bytes(device.max_buffer));
   if (total(buffers) <= limit) return "";
   return fmt::format("this render needs {} of device memory, but {}", format_bytes(total(buffers)),
-                     limit < device.memory
-                         ? fmt::format("--memory allows {}", format_bytes(limit))
-                         : fmt::format("{} has {}", device.name, format_bytes(limit)));
+                     asked ? fmt::format("--memory allows {}", format_bytes(limit))
+                           : fmt::format("{} has {}", device.name, format_bytes(limit)));
+}
+
+/// What the host can give: three quarters of its memory; the scene, pictures being written and
+/// other programs need the rest.
+std::uint64_t host_memory() {
+  return std::uint64_t(sysconf(_SC_PHYS_PAGES)) / 4 * 3 * std::uint64_t(sysconf(_SC_PAGESIZE));
 }
 
 void check_host(std::uint64_t film_bytes) {
-  const auto memory = std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
-  if (film_bytes > memory)
+  if (film_bytes > host_memory())
     throw DeviceError(fmt::format(
-        "the film of this picture needs {} of the host's memory, which has {}; render parts of it "
-        "with --crop, or a smaller --size",
-        format_bytes(film_bytes), format_bytes(memory)));
+        "the film of this picture needs {} of the host's memory, of which {} may be used; render "
+        "parts of it with --crop, or a smaller --size",
+        format_bytes(film_bytes), format_bytes(host_memory())));
 }
 
 }  // namespace
@@ -81,15 +85,19 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
 MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
                        const Integrator& integrator, const Window& window,
                        std::optional<std::uint64_t> limit) {
-  const std::uint64_t most = std::min(limit.value_or(device.memory), device.memory);
+  const std::uint64_t film_bytes = window.pixels() * sizeof(FilmPixel);
+  check_host(film_bytes);
+  std::uint64_t most = std::min(limit.value_or(device.memory), device.memory);
+  // A CPU device's memory is the host's, where the film is already.
+  if (device.cpu) most = std::min(most, host_memory() - film_bytes);
   const auto sizes = [&](int rows) {
     return buffer_sizes(scene, integrator, std::size_t(rows) * std::size_t(window.width));
   };
-  const auto fits = [&](int rows) { return objection(device, most, sizes(rows)).empty(); };
+  const bool asked = limit && most == *limit;
+  const auto fits = [&](int rows) { return objection(device, most, asked, sizes(rows)).empty(); };
   MemoryPlan plan;
-  plan.film_bytes = window.pixels() * sizeof(FilmPixel);
-  check_host(plan.film_bytes);
-  if (!fits(1)) throw DeviceError(objection(device, most, sizes(1)));
+  plan.film_bytes = film_bytes;
+  if (!fits(1)) throw DeviceError(objection(device, most, asked, sizes(1)));
   int low = 1, high = window.height;  // bisection: what `low` rows need fits
   while (low < high) {
     const int middle = low + (high - low + 1) / 2;
@@ -97,6 +105,12 @@ MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
       low = middle;
     else
       high = middle - 1;
+  }
+  // Where bands are needed at all, large ones gain nothing over these and crowd the host out.
+  constexpr std::uint64_t enough = std::uint64_t{1} << 30;
+  if (low < window.height) {
+    const std::uint64_t row = total(sizes(2)) - total(sizes(1));
+    low = int(std::min(std::uint64_t(low), std::max<std::uint64_t>(1, enough / row)));
   }
   plan.buffers = sizes(low);
   for (int row = 0; row < window.height; row += low)
