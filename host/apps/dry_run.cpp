@@ -30,6 +30,8 @@ nlohmann::json as_json(const RenderFacts& f, FeatureSet features, const MemoryPl
            {o.window().x0, o.window().x0 + o.window().width, o.window().y0,
             o.window().y0 + o.window().height}},
           {"spp", o.passes ? json(o.passes->last - o.passes->first) : json()},
+          {"passes", o.passes ? json({o.passes->first, o.passes->last}) : json()},
+          {"settings", settings_text(*f.scene, o)},
           {"time", o.seconds ? json(*o.seconds) : json()},
           {"seed", o.seed},
           {"max_depth", o.max_depth ? json(*o.max_depth) : json()},
@@ -53,14 +55,16 @@ std::string as_text(const RenderFacts& f, FeatureSet features, const MemoryPlan&
   const RenderOptions& o = f.options;
   std::vector<std::string> kernels, budget;
   for (const Pass& pass : f.integrator->passes) kernels.push_back(pass.name);
-  if (o.passes) budget.push_back(fmt::format("{} spp", o.passes->last - o.passes->first));
+  if (o.passes)
+    budget.push_back(fmt::format("{} spp, passes {}:{}", o.passes->last - o.passes->first,
+                                 o.passes->first, o.passes->last));
   if (o.seconds) budget.push_back(format_seconds(*o.seconds));
   std::string text = fmt::format(
       "{}\n  scene     {}, hash {}\n  method    {}, mis {}, seed {}, max depth {}\n"
-      "  film      {}x{}, {}\n  device    {} {}, {} {}\n  features  {}\n  kernels   {}\n"
+      "  film      {}\n  budget    {}\n  device    {} {}, {} {}\n  features  {}\n  kernels   {}\n"
       "  memory    {}\n",
       f.scene->name, f.scene->path, f.scene_hash, f.integrator->name, mis_name(o.mis), o.seed,
-      o.max_depth ? std::to_string(*o.max_depth) : "unlimited", o.width, o.height,
+      o.max_depth ? std::to_string(*o.max_depth) : "unlimited", settings_text(*f.scene, o),
       join(budget, " or "), f.device->spec(), f.device->name, f.device->platform_name,
       f.device->driver, features.describe(), join(kernels), memory_text(memory.buffers, *f.device));
   if (memory.tiles.size() > 1) text += fmt::format("  bands     {}\n", memory.tiles.size());

@@ -20,9 +20,9 @@ ExitCode checkpoint_info(const std::string& path, const CommonOptions& common) {
   PassSet gaps;
   for (const PassRange& gap : film.passes.missing(span)) gaps.add(gap);
   nlohmann::json counters = nlohmann::json::object();
-  for (const Counter& counter : c.counters) counters[counter.name] = counter.count;
+  for (const Counter& counter : c.facts.counters) counters[counter.name] = counter.count;
   std::vector<std::string> aovs;
-  for (const AovChannel& aov : c.aovs) aovs.push_back(aov.name);
+  for (const AovChannel& aov : c.facts.aovs) aovs.push_back(aov.name);
   const nlohmann::json document = {{"file", path},
                                    {"kind", "checkpoint"},
                                    {"width", film.width},
@@ -31,20 +31,22 @@ ExitCode checkpoint_info(const std::string& path, const CommonOptions& common) {
                                    {"passes", film.passes.text()},
                                    {"missing", gaps.text()},
                                    {"spp", film.passes.count()},
-                                   {"seconds", c.seconds},
+                                   {"seconds", c.facts.seconds},
                                    {"mean", summary.mean},
                                    {"error_estimate", {{"relmse", summary.relmse}}},
                                    {"aovs", aovs},
-                                   {"identity", c.identity},
+                                   {"identity", c.facts.identity},
                                    {"counters", counters}};
   std::string text = fmt::format(
       "{}: checkpoint\n  film      {}x{}, pixels {}..{} x {}..{}\n  passes    {} ({} in all); "
       "missing up to there: {}\n  rendered  in {}, mean {:.6g}\n  counters  {}\n",
       path, film.width, film.height, w.x0, w.x0 + w.width - 1, w.y0, w.y0 + w.height - 1,
-      film.passes.text(), film.passes.count(), gaps.text(), format_seconds(c.seconds), summary.mean,
-      error_count(c.counters) ? describe_counters(c.counters) : "no errors");
+      film.passes.text(), film.passes.count(), gaps.text(), format_seconds(c.facts.seconds),
+      summary.mean,
+      error_count(c.facts.counters) ? describe_counters(c.facts.counters) : "no errors");
   if (!aovs.empty()) text += fmt::format("  channels  {}\n", join(aovs));
-  for (const auto& [name, value] : c.identity) text += fmt::format("  {:<10}{}\n", name, value);
+  for (const auto& [name, value] : c.facts.identity)
+    text += fmt::format("  {:<11} {}\n", name, value);
   if (common.wants_text()) print_result(text);
   write_json(common.json, document);
   return ExitCode::done;

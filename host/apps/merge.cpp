@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"
@@ -22,9 +24,10 @@ struct MergeFlags {
 };
 
 bool names_checkpoint(const std::string& name) {
-  const std::string suffix = ".ckpt";
-  return name.size() > suffix.size() &&
-         name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
+  std::string suffix = std::filesystem::path(name).extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return suffix == ".ckpt";
 }
 
 /// Holes are allowed, since another worker may still be busy, but not in silence.
@@ -54,9 +57,9 @@ Image picture_of(const Checkpoint& c, const MergeFlags& flags) {
     return std::find(flags.aovs.begin(), flags.aovs.end(), aov) != flags.aovs.end();
   };
   Image image = film_image(c.film, asked("variance"), asked("samples"));
-  add_channels(image, c.aovs);
-  image.metadata = c.evidence;
-  add_progress(c.film, summarise(c.film), c.counters, c.seconds, image.metadata);
+  add_channels(image, c.facts.aovs);
+  image.metadata = c.facts.evidence;
+  add_progress(c.film, summarise(c.film), c.facts.counters, c.facts.seconds, image.metadata);
   if (flags.deterministic) make_deterministic(image.metadata);
   return image;
 }
@@ -65,6 +68,9 @@ ExitCode merge(const MergeFlags& flags, const CommonOptions& common) {
   std::vector<std::string> pictures, checkpoints;
   for (const std::string& name : flags.outputs) {
     (names_checkpoint(name) ? checkpoints : pictures).push_back(name);
+    for (const std::string& input : flags.inputs)
+      if (same_file(name, input))
+        throw UsageError(fmt::format("-o '{}' would overwrite what is merged; name another", name));
     check_writable(name);
   }
   check_picture_types(pictures);
@@ -74,8 +80,8 @@ ExitCode merge(const MergeFlags& flags, const CommonOptions& common) {
                        "' to add; there are variance, samples, and what the checkpoints bring");
   const DisplayTransform display = flags.display.transform();
   Checkpoint all = merged(flags.inputs);
-  warn_of_gaps(all.film.passes);
-  for (const std::string& name : checkpoints) write_checkpoint(name, all);
+  if (!pictures.empty()) warn_of_gaps(all.film.passes);
+  for (const std::string& name : checkpoints) write_checkpoint(name, all.film, all.facts);
   if (!pictures.empty()) write_pictures(pictures, picture_of(all, flags), display);
   log_info("{} files, passes {}", flags.inputs.size(), all.film.passes.text());
   if (common.wants_text())

@@ -54,12 +54,26 @@ class RenderJob {
   std::optional<Checkpoint> earlier_;  ///< what --resume found, without its film
 };
 
-/// What cannot be written must show before the render, not after it.
+/// What cannot be written must show before the render, not after it, and nothing may overwrite the
+/// scene, the checkpoint or another result.
 void RenderJob::check_outputs() const {
-  for (const std::string& name : names_) check_writable(name);
-  for (const std::string& name : {flags_.stats, flags_.checkpoint})
-    if (!name.empty()) check_writable(name);
-  if (!common_.json.empty() && common_.json != "-") check_writable(common_.json);
+  std::vector<std::pair<std::string, std::string>> files;  // what it is, name
+  for (const std::string& name : names_) files.emplace_back("-o", name);
+  files.emplace_back("--checkpoint", flags_.checkpoint);
+  files.emplace_back("--stats", flags_.stats);
+  if (common_.json != "-") files.emplace_back("--json", common_.json);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto& [what, name] = files[i];
+    if (name.empty()) continue;
+    for (const SourceFile& source : scene_.files)
+      if (same_file(name, source.path))
+        throw UsageError(fmt::format("{} '{}' would overwrite a file of the scene", what, name));
+    for (std::size_t k = 0; k < i; ++k)
+      if (same_file(name, files[k].second))
+        throw UsageError(fmt::format("{} '{}' and {} '{}' are the same file; name another", what,
+                                     name, files[k].first, files[k].second));
+    check_writable(name);
+  }
 }
 
 /// Loads the scene and settles what will be rendered.
@@ -89,12 +103,14 @@ std::optional<Film> RenderJob::resumed_film() {
     throw UsageError(fmt::format(
         "--checkpoint: '{}' exists; go on with it by --resume, or remove it", flags_.checkpoint));
   earlier_ = read_checkpoint(flags_.checkpoint);
-  const std::string what = difference(earlier_->identity, identity(facts_));
+  const std::string what = difference(earlier_->facts.identity, identity(facts_));
   if (!what.empty())
     throw InputError(fmt::format("checkpoint '{}' (the one) is not of this render (the other): {}",
                                  flags_.checkpoint, what));
-  log_info("going on with '{}', which has passes {}", flags_.checkpoint,
-           earlier_->film.passes.text());
+  const PassSet& done = earlier_->film.passes;
+  const auto& wanted = facts_.options.passes;
+  log_info("going on with '{}', which has passes {}{}", flags_.checkpoint, done.text(),
+           wanted && done.contains(*wanted) ? "; all that is asked for is done" : "");
   return std::move(earlier_->film);
 }
 
@@ -112,19 +128,16 @@ void RenderJob::write_pictures_of(const Film& film) {
 }
 
 void RenderJob::write_checkpoint_of(const Film& film) {
-  Checkpoint checkpoint{film,
-                        identity(facts_),
-                        lasting_evidence(facts_),
-                        facts_.session->counters(),
-                        facts_.seconds.render,
-                        aovs_};
-  write_checkpoint(flags_.checkpoint, checkpoint);
+  write_checkpoint(flags_.checkpoint, film,
+                   {identity(facts_), lasting_evidence(facts_), facts_.session->counters(),
+                    facts_.seconds.render, aovs_});
 }
 
 /// Writes the checkpoint and, if wanted, the pictures; if one fails, the other is still written.
 void RenderJob::write(const Film& film, bool pictures) {
   facts_.film = summarise(film);
-  facts_.seconds.render = facts_.session->render_seconds() + (earlier_ ? earlier_->seconds : 0.0);
+  facts_.seconds.render =
+      facts_.session->render_seconds() + (earlier_ ? earlier_->facts.seconds : 0.0);
   std::exception_ptr first;
   try {
     if (!flags_.checkpoint.empty()) write_checkpoint_of(film);
@@ -225,12 +238,13 @@ ExitCode RenderJob::run() {
   }
   facts_.seconds.bvh = phase.seconds();
   render_aov_channels(target);
+  if (earlier_) add_missing(aovs_, earlier_->facts.aovs);
   auto session = [&] {
     Progress progress("building kernels");
     return Session(target, packed, *facts_.integrator, facts_.options, std::move(start));
   }();
   facts_.session = &session;
-  if (earlier_) session.add_counters(earlier_->counters);
+  if (earlier_) session.add_counters(earlier_->facts.counters);
   stop_.reinstall();
   facts_.seconds.kernels = session.kernel_seconds();
   phase = Timer();

@@ -198,12 +198,15 @@ std::vector<std::string> RenderFlags::output_names(const Scene& s) const {
 }
 
 double RenderFlags::checkpoint_period() const {
-  return parse_duration("--every", every);
+  constexpr double default_period = 60.0;
+  return every.empty() ? default_period : parse_duration("--every", every);
 }
 
 void RenderFlags::check() const {
+  if (checkpoint.empty() && !every.empty())
+    throw UsageError("--every needs --checkpoint FILE beside it");
   if (checkpoint.empty() && resume) throw UsageError("--resume needs --checkpoint FILE beside it");
-  parse_duration("--every", every);
+  checkpoint_period();
   for (const std::string& aov : aovs) one_of("--aov", aov, aov_names());
   one_of("--sampler", sampler, sampler_names());
   display.transform();

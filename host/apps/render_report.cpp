@@ -46,7 +46,13 @@ std::vector<float> row_vector_matrix(const glm::dmat4& m) {
   return out;
 }
 
-/// Everything that changes what is rendered and is no matter of effort.
+std::string counters_text(const std::vector<Counter>& counters) {
+  const std::string text = describe_counters(counters);
+  return text.empty() ? "all zero" : text;
+}
+
+}  // namespace
+
 std::string settings_text(const Scene& scene, const RenderOptions& o) {
   const Window w = o.window();
   return fmt::format("{}x{} crop {},{},{},{} max-depth {} mis {} filter {} sampler {}", o.width,
@@ -54,13 +60,6 @@ std::string settings_text(const Scene& scene, const RenderOptions& o) {
                      o.max_depth ? std::to_string(*o.max_depth) : "unlimited", mis_name(o.mis),
                      pixel_filter_info(scene.settings.filter).name, sampler_name(o.plan.sampler));
 }
-
-std::string counters_text(const std::vector<Counter>& counters) {
-  const std::string text = describe_counters(counters);
-  return text.empty() ? "all zero" : text;
-}
-
-}  // namespace
 
 const char* mis_name(uint mis) {
   return mis == MIS_POWER ? "power" : mis == MIS_MAX ? "max" : "balance";

@@ -29,6 +29,9 @@ struct RenderFacts {
   RenderSeconds seconds;
 };
 
+/// Everything that changes what is rendered and is no matter of effort.
+std::string settings_text(const Scene& scene, const RenderOptions& options);
+
 using Evidence = std::map<std::string, MetaValue>;
 
 /// EXR attributes that do not change while a render goes on: worldToCamera, ... and pellucid:*.

@@ -81,6 +81,17 @@ void AtomicFile::fail(int error) const {
   throw OutputError(fmt::format("cannot write '{}': {}", path_, system_reason(error)));
 }
 
+bool same_file(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty()) return false;
+  std::error_code ignored;
+  const auto whole = [&](const std::string& name) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(name), ignored);
+  };
+  const bool device = std::filesystem::exists(a, ignored) &&
+                      !std::filesystem::is_regular_file(a, ignored);  // /dev/null takes all
+  return !device && (std::filesystem::equivalent(a, b, ignored) || whole(a) == whole(b));
+}
+
 void check_writable(const std::string& path) {
   struct stat info;
   const bool exists = stat(path.c_str(), &info) == 0;

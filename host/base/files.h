@@ -35,6 +35,9 @@ class AtomicFile {
   bool done_ = false;
 };
 
+/// Whether both names lead to one file, or would once they are written.
+bool same_file(const std::string& a, const std::string& b);
+
 /// Whether `path` could be written now, found out by trying: throws the OutputError that writing
 /// would, and leaves nothing behind. Pipes and devices are not touched.
 void check_writable(const std::string& path);

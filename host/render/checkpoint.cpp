@@ -53,12 +53,14 @@ class Planes {
     for (std::size_t i = 0; i < pixels_; ++i) any |= (plane[i] = word(i)) != 0;
     if (any || name == always_there) planes_[name] = std::move(plane);
   }
-  void put_into(WordImage& words) const {
-    words.data.resize(pixels_ * planes_.size());
-    for (const auto& [name, plane] : planes_) {
-      const std::size_t a = words.channels.size(), stride = planes_.size();
+  void put_into(WordImage& words) && {
+    const std::size_t stride = planes_.size();
+    words.data.resize(pixels_ * stride);
+    for (auto& [name, plane] : planes_) {
+      const std::size_t a = words.channels.size();
       words.channels.push_back(name);
       for (std::size_t i = 0; i < pixels_; ++i) words.data[i * stride + a] = plane[i];
+      plane = {};
     }
   }
 
@@ -77,8 +79,7 @@ std::string open_name(std::uint64_t block, std::size_t c, std::size_t word) {
   return fmt::format("open.{}.{}.{}", block, channel_names[c], word);
 }
 
-Planes planes_of(const Checkpoint& checkpoint) {
-  const Film& film = checkpoint.film;
+Planes planes_of(const Film& film, const CheckpointFacts& facts) {
   Planes planes(film.pixels.size());
   const std::vector<std::string> names = word_names();
   for (std::size_t w = 0; w < names.size(); ++w)
@@ -88,7 +89,7 @@ Planes planes_of(const Checkpoint& checkpoint) {
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t w = 0; w < FILM_SUM_WORDS; ++w)
         planes.add(open_name(block, c, w), [&, &s = sums](std::size_t i) { return s[i][c][w]; });
-  for (const AovChannel& aov : checkpoint.aovs)
+  for (const AovChannel& aov : facts.aovs)
     planes.add("aov." + aov.name, [&](std::size_t i) {
       uint bits;
       std::memcpy(&bits, &aov.data[i], sizeof bits);
@@ -131,7 +132,8 @@ std::string content_hash(const WordImage& words) {
   Hasher hasher;
   for (const auto& [name, value] : words.metadata)
     if (name.rfind(prefix, 0) == 0 && name != key("hash"))
-      hasher.add(name + "=" + std::get<std::string>(value) + "\n");
+      if (const auto* text = std::get_if<std::string>(&value))  // others are not of our making
+        hasher.add(name + "=" + *text + "\n");
   // Readers put channels into an order of their own.
   std::vector<std::string> names = words.channels;
   std::sort(names.begin(), names.end());
@@ -197,7 +199,30 @@ std::vector<AovChannel> read_aovs(const WordImage& words, const Facts& facts) {
   return aovs;
 }
 
+/// "a", or "a; b" where the films come from different places.
+void join_evidence(std::map<std::string, MetaValue>& into,
+                   const std::map<std::string, MetaValue>& other, const std::string& name) {
+  const auto theirs = other.find(name);
+  if (theirs == other.end() || !std::holds_alternative<std::string>(theirs->second)) return;
+  const std::string& text = std::get<std::string>(theirs->second);
+  const auto ours = into.find(name);
+  if (ours == into.end() || !std::holds_alternative<std::string>(ours->second)) {
+    into[name] = text;
+    return;
+  }
+  std::string& all = std::get<std::string>(ours->second);
+  if (("; " + all + "; ").find("; " + text + "; ") == std::string::npos) all += "; " + text;
+}
+
 }  // namespace
+
+void add_missing(std::vector<AovChannel>& channels, const std::vector<AovChannel>& more) {
+  for (const AovChannel& aov : more) {
+    const bool there = std::any_of(channels.begin(), channels.end(),
+                                   [&](const AovChannel& c) { return c.name == aov.name; });
+    if (!there) channels.push_back(aov);
+  }
+}
 
 std::string difference(const std::map<std::string, std::string>& a,
                        const std::map<std::string, std::string>& b) {
@@ -210,13 +235,12 @@ std::string difference(const std::map<std::string, std::string>& a,
   return a.size() == b.size() ? "" : "one of them says more about itself than the other";
 }
 
-void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
-  const Film& film = checkpoint.film;
+void write_checkpoint(const std::string& path, const Film& film, const CheckpointFacts& facts) {
   WordImage words;
   words.width = film.window.width;
   words.height = film.window.height;
-  planes_of(checkpoint).put_into(words);
-  words.metadata = checkpoint.evidence;
+  planes_of(film, facts).put_into(words);
+  words.metadata = facts.evidence;
   PassSet open;
   for (const auto& [block, sums] : film.open) open.add({block, block + 1});
   const auto put = [&](const std::string& name, const std::string& value) {
@@ -228,12 +252,12 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
   put("lsb", std::to_string(film.lsb)), put("block_size", std::to_string(film.block_size));
   put("passes", film.passes.text()), put("open", open.text());
   put("current", film.current ? std::to_string(*film.current) : "none");
-  put("seconds", fmt::format("{}", checkpoint.seconds));
+  put("seconds", fmt::format("{}", facts.seconds));
   std::vector<std::string> aovs;
-  for (const AovChannel& aov : checkpoint.aovs) aovs.push_back(aov.name);
+  for (const AovChannel& aov : facts.aovs) aovs.push_back(aov.name);
   put("aovs", aovs.empty() ? no_aovs : fmt::format("{}", fmt::join(aovs, " ")));
-  for (const auto& [name, value] : checkpoint.identity) put("identity." + name, value);
-  for (const Counter& c : checkpoint.counters) put("counter." + c.name, std::to_string(c.count));
+  for (const auto& [name, value] : facts.identity) put("identity." + name, value);
+  for (const Counter& c : facts.counters) put("counter." + c.name, std::to_string(c.count));
   put("hash", content_hash(words));
   write_words(path, words);
 }
@@ -251,27 +275,29 @@ Checkpoint read_checkpoint(const std::string& path) {
     throw InputError(fmt::format("checkpoint '{}' is of version {}, and this pellucid reads {}",
                                  path, facts.text("version"), format_version));
   if (facts.text("hash") != content_hash(words)) facts.fail("its content does not match its hash");
-  Checkpoint out{film_of(words, facts), {}, {}, make_counters(), 0, read_aovs(words, facts)};
+  Checkpoint out{film_of(words, facts), {}};
+  CheckpointFacts& about = out.facts;
+  about.aovs = read_aovs(words, facts);
   read_open_blocks(words, facts, out.film);
   const std::string seconds = facts.text("seconds");
-  std::from_chars(seconds.data(), seconds.data() + seconds.size(), out.seconds);
-  for (Counter& c : out.counters)
+  std::from_chars(seconds.data(), seconds.data() + seconds.size(), about.seconds);
+  for (Counter& c : about.counters)
     if (words.metadata.count(key("counter." + c.name)))
       c.count = std::uint64_t(facts.number("counter." + c.name));
   const std::string identity = key("identity.");
   for (const auto& [name, value] : words.metadata) {
     if (name.rfind(identity, 0) == 0)
-      out.identity[name.substr(identity.size())] = std::get<std::string>(value);
+      about.identity[name.substr(identity.size())] = facts.text(name.substr(std::strlen(prefix)));
     else if (name.rfind(prefix, 0) != 0 &&
              (name.rfind("pellucid:", 0) == 0 || name.rfind("worldTo", 0) == 0))
-      out.evidence[name] = value;  // the rest is the file format's own
+      about.evidence[name] = value;  // the rest is the file format's own
   }
   return out;
 }
 
 void merge_checkpoint(Checkpoint& into, const std::string& into_name, const Checkpoint& other,
                       const std::string& other_name) {
-  const std::string what = difference(into.identity, other.identity);
+  const std::string what = difference(into.facts.identity, other.facts.identity);
   if (!what.empty())
     throw InputError(
         fmt::format("'{}' and '{}' are not of the same picture: {}", into_name, other_name, what));
@@ -280,9 +306,12 @@ void merge_checkpoint(Checkpoint& into, const std::string& into_name, const Chec
                                  into_name, into.film.passes.text(), other_name,
                                  other.film.passes.text()));
   into.film.merge(other.film);
-  into.seconds += other.seconds;
-  for (std::size_t i = 0; i < into.counters.size(); ++i)
-    into.counters[i].count += other.counters[i].count;
+  into.facts.seconds += other.facts.seconds;
+  for (std::size_t i = 0; i < into.facts.counters.size(); ++i)
+    into.facts.counters[i].count += other.facts.counters[i].count;
+  add_missing(into.facts.aovs, other.facts.aovs);
+  for (const char* place : {"pellucid:device", "pellucid:driver", "pellucid:version"})
+    join_evidence(into.facts.evidence, other.facts.evidence, place);
 }
 
 std::string kernels_hash(const Integrator& integrator, const std::string& kernel_dir) {

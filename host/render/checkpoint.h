@@ -14,8 +14,8 @@
 
 namespace pellucid {
 
-struct Checkpoint {
-  Film film;
+/// All of a checkpoint but its film.
+struct CheckpointFacts {
   /// What must agree for films to be of the same picture: name -> value, e.g. "seed" -> "7".
   std::map<std::string, std::string> identity;
   std::map<std::string, MetaValue> evidence;  ///< metadata of the picture so far
@@ -23,13 +23,24 @@ struct Checkpoint {
   double seconds = 0;            ///< render time of all passes
   std::vector<AovChannel> aovs;  ///< channels beside the film's, which no pass changes
 };
+struct Checkpoint {
+  Film film;
+  CheckpointFacts facts;
+};
+
+/// Most bytes of host memory per pixel that writing a checkpoint takes beside the film: its words
+/// once as planes and once as a file has them.
+constexpr std::uint64_t checkpoint_bytes_per_pixel = 2 * sizeof(FilmPixel);
+
+/// Adds those of `more` whose names are not there yet.
+void add_missing(std::vector<AovChannel>& channels, const std::vector<AovChannel>& more);
 
 /// Sentence on the first thing in which two identities differ, or "".
 std::string difference(const std::map<std::string, std::string>& a,
                        const std::map<std::string, std::string>& b);
 
 /// Appears whole or not at all. Throws OutputError.
-void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
+void write_checkpoint(const std::string& path, const Film& film, const CheckpointFacts& facts);
 
 /// Throws InputError for what is none, is damaged, or of another version.
 Checkpoint read_checkpoint(const std::string& path);

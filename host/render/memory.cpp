@@ -48,10 +48,11 @@ std::uint64_t host_memory() {
 
 void check_host(std::uint64_t film_bytes) {
   if (film_bytes > host_memory())
-    throw DeviceError(fmt::format(
-        "the film of this picture needs {} of the host's memory, of which {} may be used; render "
-        "parts of it with --crop, or a smaller --size",
-        format_bytes(film_bytes), format_bytes(host_memory())));
+    throw DeviceError(
+        fmt::format("the film of this picture (and its checkpoint, if asked for) needs {} of the "
+                    "host's memory, of which {} may be used; render "
+                    "parts of it with --crop, or a smaller --size",
+                    format_bytes(film_bytes), format_bytes(host_memory())));
 }
 
 }  // namespace
@@ -84,12 +85,12 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
 
 MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
                        const Integrator& integrator, const Window& window,
-                       std::optional<std::uint64_t> limit) {
+                       std::optional<std::uint64_t> limit, std::uint64_t host_bytes) {
   const std::uint64_t film_bytes = window.pixels() * sizeof(FilmPixel);
-  check_host(film_bytes);
+  check_host(film_bytes + host_bytes);
   std::uint64_t most = std::min(limit.value_or(device.memory), device.memory);
   // A CPU device's memory is the host's, where the film is already.
-  if (device.cpu) most = std::min(most, host_memory() - film_bytes);
+  if (device.cpu) most = std::min(most, host_memory() - film_bytes - host_bytes);
   const auto sizes = [&](int rows) {
     return buffer_sizes(scene, integrator, std::size_t(rows) * std::size_t(window.width));
   };

@@ -30,10 +30,10 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
                                                 const Integrator& integrator, std::size_t pixels);
 
 /// Plans for `window` of the picture within what the device reports and, if given, `limit` bytes of
-/// device memory. Throws DeviceError with the figures where not even one row of pixels fits, or the
-/// host cannot hold the film.
+/// device memory; `host_bytes` are needed by the host beside the film. Throws DeviceError with the
+/// figures where not even one row of pixels fits, or the host cannot hold the film.
 MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
                        const Integrator& integrator, const Window& window,
-                       std::optional<std::uint64_t> limit);
+                       std::optional<std::uint64_t> limit, std::uint64_t host_bytes = 0);
 
 }  // namespace pellucid

@@ -40,8 +40,6 @@ INLINE WideValue film_steps(float x, int lsb, PRIVATE int* flaw) {
     *flaw = 1 + DIAG_film_saturated;
     v.mantissa = 0xffffffu;
     v.exponent = FILM_SAMPLE_BITS - 24;
-  } else if (v.mantissa != 0u && v.exponent < FILM_FAINT_BITS - 24) {
-    if (!*flaw) *flaw = 1 + DIAG_film_faint;
   }
   return wide_round(v);
 }

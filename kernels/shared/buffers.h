@@ -46,7 +46,6 @@
   X(stack_overflow, 1, "BVH subtrees skipped because the traversal stack was full")       \
   X(path_stuck, 1, "paths ended by the hard limit on path length")                        \
   X(film_saturated, 1, "samples cut because they exceed the film's range")                \
-  X(film_faint, 0, "samples rounded to fewer than 8 bits beside the brightest light")     \
   X(splat_outside, 1, "splats dropped because their pixel is outside the film")           \
   X(splat_saturated, 1, "splats cut because they exceed the fixed-point range")
 

@@ -51,14 +51,12 @@
 /// is Launch.splat_scale; light tracing will set it by the scene's power.
 #define SPLAT_FIXED_MAX 1099511627776.0f /* 2^40 */
 
-/// Film sums count steps of 2^-56 of the brightest light (Launch.film_lsb): faint pixels keep 24
-/// bits down to 2^-32 of it.
+/// Film sums count steps of 2^-56 of the brightest light (Launch.film_lsb), to which samples are
+/// rounded: they keep 24 bits down to 2^-32 of it, 8 bits down to 2^-48.
 #define FILM_FRACTION_BITS 56
 /// Largest sample in those steps: 2^36 times the brightest light, and 2^32 of them fit a sum of 128
 /// bits.
 #define FILM_SAMPLE_BITS 92
-/// Bits of a sample below which its rounding is counted as film_faint.
-#define FILM_FAINT_BITS 8
 /// Squares are kept in steps of 2^28 squared steps, so that 2^28 blocks of the largest fit 192
 /// bits.
 #define FILM_SQUARE_DROP 28

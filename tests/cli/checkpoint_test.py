@@ -149,6 +149,37 @@ def test_wrong_files():
     check(not os.path.exists("never.exr"), "nothing is written after an error")
 
 
+def test_nothing_overwrites_anything():
+    text = read_bytes("room.json")
+    for arguments in (["--checkpoint", "same.exr", "-o", "same.exr"],
+                      ["--stats", "same.exr", "-o", "same.exr"],
+                      ["--checkpoint", "./room.exr"],  # a default name
+                      ["-o", "x.exr", "--stats", "room.json"],
+                      ["-o", "x.exr", "--checkpoint", os.path.abspath("room.json"), "--resume"]):
+        expect(2, ["room.json", "--spp", "1", *arguments], "same file" if "room.json" not in
+               arguments[-1] and "--resume" not in arguments else "a file of the scene")
+    check(read_bytes("room.json") == text and not os.path.exists("same.exr"), "nothing is touched")
+    render("in", "--spp", "2", "--checkpoint", "in.ckpt")
+    expect(2, ["merge", "in.ckpt", "-o", "./in.ckpt"], "overwrite")
+
+
+def test_channels_stay_with_a_checkpoint():
+    """Whichever order files are merged in, and whether --aov is said again or not."""
+    aovs = ["room.json", "-q", "--deterministic", "--aov", "Z,albedo"]
+    plain = ["room.json", "-q", "--deterministic"]
+    expect(0, [*aovs, "--spp", "6", "-o", "all.exr"])
+    expect(0, [*aovs, "--passes", "0:4", "--checkpoint", "with.ckpt", "-o", "x.exr"])
+    expect(0, [*plain, "--passes", "4:6", "--checkpoint", "bare.ckpt", "-o", "x.exr"])
+    for files in (["with.ckpt", "bare.ckpt"], ["bare.ckpt", "with.ckpt"]):
+        expect(0, ["merge", *files, "-o", "both.exr", "--deterministic"])
+        check(document(["info", "both.exr"])["channels"] == ["R", "G", "B", "Z", "albedo.R", "albedo.G",
+                                                             "albedo.B"], "channels of both")
+        check(same_files("both.exr", "all.exr"), "merged is uninterrupted", files)
+    expect(0, [*plain, "--spp", "6", "--checkpoint", "with.ckpt", "--resume", "-o", "on.exr"])
+    check(same_files("on.exr", "all.exr"), "resumed without --aov keeps them")
+    check(document(["info", "with.ckpt"])["aovs"] == ["Z", "albedo.R", "albedo.G", "albedo.B"], "kept")
+
+
 def test_damaged():
     render("a", "--spp", "4", "--checkpoint", "whole.ckpt")
     whole = read_bytes("whole.ckpt")
@@ -167,6 +198,7 @@ def test_passes_and_sizes_are_checked():
     for memory in ("0", "-1", "nan", "inf", "2X", "1e38", "G"):
         expect(2, ["render", *SAME, "--memory", memory], "--memory")
     expect(4, ["render", *SAME, "--spp", "1", "--memory", "1K"], "--memory allows")
+    expect(2, ["render", *SAME, "--every", "5s"], "--checkpoint")
     expect(2, ["render", *SAME, "--checkpoint", "x.ckpt", "--every", "soon"], "--every")
 
 

@@ -174,14 +174,16 @@ class CheckpointTest : public ::testing::Test {
   std::string path = ::testing::TempDir() + "pellucid_checkpoint_test";
   ~CheckpointTest() override { std::filesystem::remove(path); }
 
+  void write(const Film& film) { write_checkpoint(path, film, example(film).facts); }
+
   static Checkpoint example(const Film& film) {
-    Checkpoint c{film, {{"seed", "7"}, {"scene", "abc"}}, {}, make_counters(), 12.5, {}};
-    c.evidence["pellucid:scene"] = std::string("example");
-    c.counters[1].count = 5;
-    c.aovs = {{"Z", {}}, {"N.X", {}}};
+    Checkpoint c{film, {{{"seed", "7"}, {"scene", "abc"}}, {}, make_counters(), 12.5, {}}};
+    c.facts.evidence["pellucid:scene"] = std::string("example");
+    c.facts.counters[1].count = 5;
+    c.facts.aovs = {{"Z", {}}, {"N.X", {}}};
     for (int i = 0; i < width * height; ++i) {
-      c.aovs[0].data.push_back(float(i) / 3);
-      c.aovs[1].data.push_back(-float(i));
+      c.facts.aovs[0].data.push_back(float(i) / 3);
+      c.facts.aovs[1].data.push_back(-float(i));
     }
     return c;
   }
@@ -190,18 +192,18 @@ class CheckpointTest : public ::testing::Test {
 TEST_F(CheckpointTest, ComesBackBitForBit) {
   for (std::uint64_t block_size : {1, 16}) {
     Film film = film_of(range(5, 40), block_size);
-    write_checkpoint(path, example(film));
+    write(film);
     const Checkpoint back = read_checkpoint(path);
     expect_same(film, back.film, "read back");
     EXPECT_EQ(back.film.current, film.current);
-    EXPECT_EQ(back.identity, example(film).identity);
-    EXPECT_EQ(back.evidence, example(film).evidence);
-    EXPECT_EQ(back.counters[1].count, 5u);
-    EXPECT_EQ(back.seconds, 12.5);
-    ASSERT_EQ(back.aovs.size(), 2u);
+    EXPECT_EQ(back.facts.identity, example(film).facts.identity);
+    EXPECT_EQ(back.facts.evidence, example(film).facts.evidence);
+    EXPECT_EQ(back.facts.counters[1].count, 5u);
+    EXPECT_EQ(back.facts.seconds, 12.5);
+    ASSERT_EQ(back.facts.aovs.size(), 2u);
     for (std::size_t a = 0; a < 2; ++a) {
-      EXPECT_EQ(back.aovs[a].name, example(film).aovs[a].name);
-      EXPECT_EQ(back.aovs[a].data, example(film).aovs[a].data);
+      EXPECT_EQ(back.facts.aovs[a].name, example(film).facts.aovs[a].name);
+      EXPECT_EQ(back.facts.aovs[a].data, example(film).facts.aovs[a].data);
     }
     // Going on gives what an uninterrupted render gives.
     Film further = back.film;
@@ -213,7 +215,7 @@ TEST_F(CheckpointTest, ComesBackBitForBit) {
 TEST_F(CheckpointTest, WindowsOfAPictureComeBack) {
   Film film(100, 80, {10, 20, width, height}, lsb, 1);
   add_pass(film, 0);
-  write_checkpoint(path, example(film));
+  write(film);
   const Film back = read_checkpoint(path).film;
   EXPECT_TRUE(back.window == film.window);
   EXPECT_EQ(back.width, 100);
@@ -221,7 +223,7 @@ TEST_F(CheckpointTest, WindowsOfAPictureComeBack) {
 }
 
 TEST_F(CheckpointTest, CutAnywhereItIsRefused) {
-  write_checkpoint(path, example(film_of(range(0, 20), 16)));
+  write(film_of(range(0, 20), 16));
   const std::string whole = read_text(path);
   for (int i = 0; i < 40; ++i) {
     std::ofstream(path, std::ios::binary) << whole.substr(0, whole.size() * std::size_t(i) / 40);
@@ -231,7 +233,7 @@ TEST_F(CheckpointTest, CutAnywhereItIsRefused) {
 
 TEST_F(CheckpointTest, DamagedItIsRefusedOrUnharmed) {
   const Film film = film_of(range(0, 20), 16);
-  write_checkpoint(path, example(film));
+  write(film);
   const std::string whole = read_text(path);
   std::mt19937 engine(3);
   for (int i = 0; i < 400; ++i) {
@@ -249,10 +251,11 @@ TEST_F(CheckpointTest, OnlyFilmsOfOnePictureMerge) {
   Checkpoint a = example(film_of(range(0, 8), 1)), b = example(film_of(range(8, 12), 1));
   merge_checkpoint(a, "a", b, "b");
   EXPECT_EQ(a.film.passes.text(), "0:12");
-  EXPECT_EQ(a.seconds, 25.0);
+  EXPECT_EQ(a.facts.seconds, 25.0);
+  EXPECT_EQ(a.facts.aovs.size(), 2u) << "the same channels once";
   EXPECT_THROW(merge_checkpoint(a, "a", b, "b"), InputError) << "the same passes twice";
   b.film = film_of(range(20, 21), 1);
-  b.identity["seed"] = "8";
+  b.facts.identity["seed"] = "8";
   try {
     merge_checkpoint(a, "first", b, "second");
     FAIL();
