@@ -135,7 +135,7 @@ void RenderJob::write_checkpoint_of(const Film& film) {
 
 /// Writes the checkpoint and, if wanted, the pictures; if one fails, the other is still written.
 void RenderJob::write(const Film& film, bool pictures) {
-  facts_.film = summarise(film);
+  if (pictures) facts_.film = summarise(film);
   facts_.seconds.render =
       facts_.session->render_seconds() + (earlier_ ? earlier_->facts.seconds : 0.0);
   std::exception_ptr first;
@@ -220,8 +220,8 @@ ExitCode RenderJob::run() {
   std::future<void> image_library = std::async(std::launch::async, load_image_library);
   const Device target = flags_.device.open();
   // Building a BVH is wasted time if not even the film fits.
-  plan_memory(target.info(), {}, *facts_.integrator, facts_.options.window(),
-              facts_.options.memory);
+  const RenderOptions& o = facts_.options;
+  plan_memory(target.info(), {}, *facts_.integrator, o.window(), o.memory, o.host_bytes);
   facts_.device = &target.info();
   facts_.seconds.load = total_.seconds();
 

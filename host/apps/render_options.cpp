@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "integrators/registry.h"
 #include "render/aov.h"
+#include "render/checkpoint.h"
 
 namespace pellucid {
 namespace {
@@ -180,6 +181,7 @@ RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) con
   o.passes = pass_range(*this, s);
   if (!crop.empty()) o.crop = parse_crop("--crop", crop, o.width, o.height);
   if (!memory.empty()) o.memory = parse_bytes("--memory", memory);
+  if (!checkpoint.empty()) o.host_bytes = o.window().pixels() * checkpoint_bytes_per_pixel;
   o.seed = seed;
   if (max_depth) o.max_depth = uint(max_depth);
   if (!max_depth && s.settings.max_depth) o.max_depth = uint(*s.settings.max_depth);

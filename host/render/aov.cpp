@@ -149,8 +149,8 @@ std::vector<AovChannel> render_aovs(Device device, const PackedScene& scene,
   const bool filtered =
       std::any_of(asked.begin(), asked.end(), [](const AovInfo& info) { return info.filtered; });
   const uint iterations = filtered ? AOV_ITERATIONS : 1;
-  const MemoryPlan memory =
-      plan_memory(device.info(), scene, aov_method(), options.window(), options.memory);
+  const MemoryPlan memory = plan_memory(device.info(), scene, aov_method(), options.window(),
+                                        options.memory, options.host_bytes);
   AovPass pass(std::move(device), scene, options.plan, memory);
   Launch launch{};
   launch.width = uint(options.width), launch.height = uint(options.height);

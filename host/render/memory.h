@@ -34,6 +34,6 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
 /// figures where not even one row of pixels fits, or the host cannot hold the film.
 MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
                        const Integrator& integrator, const Window& window,
-                       std::optional<std::uint64_t> limit, std::uint64_t host_bytes = 0);
+                       std::optional<std::uint64_t> limit, std::uint64_t host_bytes);
 
 }  // namespace pellucid

@@ -36,7 +36,8 @@ std::uint64_t block_size_of(const Plan& plan) {
 Session::Session(const Device& device, const PackedScene& scene, const Integrator& integrator,
                  const RenderOptions& options, std::optional<Film> start)
     : options_(options),
-      memory_(plan_memory(device.info(), scene, integrator, options.window(), options.memory)),
+      memory_(plan_memory(device.info(), scene, integrator, options.window(), options.memory,
+                          options.host_bytes)),
       plan_(timed_plan(device, scene, integrator, options, memory_, kernel_seconds_)),
       film_(options.width, options.height, options.window(),
             scene.brightness_exponent - FILM_FRACTION_BITS, block_size_of(plan_)) {
@@ -64,11 +65,10 @@ std::optional<Session::Batch> Session::next_batch(std::uint64_t most) const {
   const std::vector<PassRange> gaps = film_.passes.missing(wanted);
   if (gaps.empty()) return std::nullopt;
   const PassRange gap = gaps.front();
-  const std::uint64_t block_end = film_.block_range(gap.first / film_.block_size).last;
   const PassRange block = film_.block_range(gap.first / film_.block_size);
   const bool fresh = film_.passes.count(block) == 0 && gap.first == block.first;
   std::uint64_t count = std::min(most, gap.count());
-  if (!fresh) count = std::min(count, block_end - gap.first);
+  if (!fresh) count = std::min(count, block.last - gap.first);
   // Whole blocks, or a part of one: a batch never ends in its second block.
   if (count > film_.block_size) count -= count % film_.block_size;
   return Batch{gap.first, count};

@@ -21,6 +21,7 @@ struct RenderOptions {
   std::optional<uint> max_depth;  ///< segments; absent = unlimited
   uint mis = MIS_BALANCE;
   std::optional<std::uint64_t> memory;  ///< most bytes on the device
+  std::uint64_t host_bytes = 0;         ///< what the host needs beside the film, as for checkpoints
   PlanOptions plan;
 
   Window window() const { return crop.value_or(Window{0, 0, width, height}); }

@@ -6,14 +6,6 @@
 #include "shared/buffers.h"
 #include "shared/film_sums.h"
 
-INLINE int float_is_finite(float x) {
-#if PELLUCID_DEVICE
-  return (as_uint(x) & 0x7f800000u) != 0x7f800000u;
-#else
-  return std::isfinite(x);
-#endif
-}
-
 INLINE uint float_bits(float x) {
 #if PELLUCID_DEVICE
   return as_uint(x);
@@ -21,14 +13,6 @@ INLINE uint float_bits(float x) {
   uint bits;
   std::memcpy(&bits, &x, sizeof bits);
   return bits;
-#endif
-}
-
-INLINE void film_count(GLOBAL uint* diag, uint counter) {
-#if PELLUCID_DEVICE
-  atomic_inc(&diag[counter]);
-#else
-  ++diag[counter];
 #endif
 }
 
@@ -59,7 +43,7 @@ INLINE void film_add_channel(GLOBAL FilmPixel* pixel, int c, WideValue v) {
 /// (its pixel gets 0 for the iteration) and counted.
 INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, Launch launch, F4 sample) {
   int flaw = 0;
-  if (!float_is_finite(sample.x) || !float_is_finite(sample.y) || !float_is_finite(sample.z)) {
+  if (!is_finite(sample.x) || !is_finite(sample.y) || !is_finite(sample.z)) {
     flaw = 1 + DIAG_nonfinite;
   } else if (sample.x < 0.0f || sample.y < 0.0f || sample.z < 0.0f) {
     flaw = 1 + DIAG_negative;
@@ -68,7 +52,7 @@ INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, Launch l
     film_add_channel(pixel, 1, film_steps(sample.y, launch.film_lsb, &flaw));
     film_add_channel(pixel, 2, film_steps(sample.z, launch.film_lsb, &flaw));
   }
-  if (flaw) film_count(diag, (uint)(flaw - 1));
+  if (flaw) diag_add(diag, (uint)(flaw - 1));
 #if INTG_SOBOL
   if (launch.block_ends) film_end_block(pixel);
 #endif
@@ -99,7 +83,7 @@ INLINE void splat_word(__global uint* word, ulong steps) {
 INLINE ulong splat_steps(float value, float scale, __global uint* diag) {
   float steps = value * scale;
   if (steps > SPLAT_FIXED_MAX) {
-    atomic_inc(&diag[DIAG_splat_saturated]);
+    diag_add(diag, DIAG_splat_saturated);
     steps = SPLAT_FIXED_MAX;
   }
   return convert_ulong_rte(steps);
@@ -112,15 +96,15 @@ INLINE void film_splat(__global uint* splats, __global uint* diag, Launch launch
   x -= (int)launch.tile_x;
   y -= (int)launch.tile_y;
   if (x < 0 || y < 0 || x >= (int)launch.tile_width || y >= (int)launch.tile_height) {
-    atomic_inc(&diag[DIAG_splat_outside]);
+    diag_add(diag, DIAG_splat_outside);
     return;
   }
-  if (!float_is_finite(r) || !float_is_finite(g) || !float_is_finite(b)) {
-    atomic_inc(&diag[DIAG_nonfinite]);
+  if (!is_finite(r) || !is_finite(g) || !is_finite(b)) {
+    diag_add(diag, DIAG_nonfinite);
     return;
   }
   if (r < 0.0f || g < 0.0f || b < 0.0f) {
-    atomic_inc(&diag[DIAG_negative]);
+    diag_add(diag, DIAG_negative);
     return;
   }
   __global uint* word = splats + ((size_t)y * launch.tile_width + (size_t)x) * 6;

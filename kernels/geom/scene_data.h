@@ -13,11 +13,7 @@ typedef struct SceneData {
 
 /// Counts an event of shared/buffers.h.
 INLINE void diag_count(PRIVATE const SceneData* scene, uint counter) {
-#if PELLUCID_DEVICE
-  atomic_inc(&scene->diag[counter]);
-#else
-  ++scene->diag[counter];
-#endif
+  diag_add(scene->diag, counter);
 }
 
 #endif

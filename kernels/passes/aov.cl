@@ -2,9 +2,8 @@
 // Reads: scene, filter. Writes: aovs [pixels], diag. Domain: pixels. Atomics: diag only. Next: the
 // next iteration, then the host divides the sums.
 // Flags: INTG_SOBOL, INTG_FILTER.
-#include "camera/camera.h"
-#include "camera/filter.h"
 #include "passes/bundles.h"
+#include "passes/tile.h"
 #include "transport/vertex.h"
 
 /// Position, depth and ids of the ray through the pixel's centre: means over an edge would lie on
@@ -42,15 +41,9 @@ __kernel void aov(SCENE_PARAMS FILTER_PARAMS AOV_PARAMS DIAG_PARAMS const Launch
   uint pixel = (uint)get_global_id(0);
   if (pixel >= launch.tile_width * launch.tile_height) return;
   SCENE_FROM_PARAMS
-  uint column = launch.tile_x + pixel % launch.tile_width;
-  uint row = launch.tile_y + pixel / launch.tile_width;
+  TileSample s = tile_sample(launch, camera, filter_table, pixel);
   AovPixel a = aovs[pixel];
-  if (launch.iteration == 0u) a = aov_of_centre(&scene_data, camera, column, row);
-  Rng rng;
-  rng.path = row * launch.width + column;
-  rng.iteration = launch.iteration;
-  rng.seed = launch.seed;
-  FilmPosition at = film_position(filter_table, column, row, rng4(rng, DIM_PIXEL));
-  aov_add(&scene_data, camera_ray(camera, at.x, at.y), &a);
+  if (launch.iteration == 0u) a = aov_of_centre(&scene_data, camera, s.column, s.row);
+  aov_add(&scene_data, s.ray, &a);
   aovs[pixel] = a;
 }

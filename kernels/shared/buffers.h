@@ -52,4 +52,13 @@
 #define DIAG_ENUM(name, error, meaning) DIAG_##name,
 enum { DIAG_COUNTERS(DIAG_ENUM) DIAG_COUNT };
 
+/// Counts an event.
+INLINE void diag_add(GLOBAL uint* diag, uint counter) {
+#if PELLUCID_DEVICE
+  atomic_inc(&diag[counter]);
+#else
+  ++diag[counter];
+#endif
+}
+
 #endif

@@ -98,7 +98,7 @@ TEST(Passes, bands_are_a_matter_of_memory_only) {
     RenderOptions o = options_for({0, all_passes});
     o.memory = bytes + 5 * side * (sizeof(FilmPixel) + sizeof(F4));  // five rows at a time
     const MemoryPlan plan =
-        plan_memory(test_device().info(), everything(), method, o.window(), o.memory);
+        plan_memory(test_device().info(), everything(), method, o.window(), o.memory, 0);
     EXPECT_EQ(plan.tiles.size(), 5u);
     EXPECT_LE(plan.device_bytes(), *o.memory);
     EXPECT_TRUE(same_film(whole, render(method, o))) << method.name;
@@ -115,11 +115,14 @@ TEST(Passes, what_does_not_fit_is_refused_with_figures) {
   } catch (const DeviceError& e) {
     EXPECT_NE(std::string(e.what()).find("--memory allows"), std::string::npos) << e.what();
   }
+  o.memory.reset();
+  o.host_bytes = std::uint64_t{1} << 60;  // a checkpoint that no machine holds
+  EXPECT_THROW(Session(test_device(), everything(), method, o), DeviceError);
   // Buffers above what one may hold: as many bands as that takes.
   DeviceInfo small = test_device().info();
   small.max_buffer = 1 << 20;
   const PackedScene nothing = pack_scene(Scene(), {8});
-  const MemoryPlan plan = plan_memory(small, nothing, method, {0, 0, 1000, 1000}, {});
+  const MemoryPlan plan = plan_memory(small, nothing, method, {0, 0, 1000, 1000}, {}, 0);
   for (const auto& [name, bytes] : plan.buffers) EXPECT_LE(bytes, small.max_buffer) << name;
   int rows = 0;
   for (const Window& tile : plan.tiles) {
@@ -127,7 +130,7 @@ TEST(Passes, what_does_not_fit_is_refused_with_figures) {
     rows += tile.height;
   }
   EXPECT_EQ(rows, 1000);
-  EXPECT_THROW(plan_memory(small, nothing, method, {0, 0, 30000, 1}, {}), DeviceError);
+  EXPECT_THROW(plan_memory(small, nothing, method, {0, 0, 30000, 1}, {}, 0), DeviceError);
 }
 
 }  // namespace
