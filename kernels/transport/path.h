@@ -30,18 +30,25 @@ INLINE real chance_weight(Launch launch, PRIVATE const Walk* walk, real pdf_ligh
 #endif
 }
 
+/// Adds what a path brought: `value` unweighted, found by strategy `s` (vertices drawn from the
+/// light's end) as a path of `depth` segments.
+INLINE void walk_gather(PRIVATE Walk* walk, real3 value, real weight, uint s, uint depth) {
+  walk->radiance += value * weight;
+}
+
 /// The ray left the scene.
-INLINE void walk_escaped(PRIVATE const SceneData* scene, Launch launch, PRIVATE Walk* walk) {
+INLINE void walk_escaped(PRIVATE const SceneData* scene, Launch launch, uint depth,
+                         PRIVATE Walk* walk) {
 #if FEAT_LIGHT_ENVIRONMENT
   if (scene->info.environment == NONE) return;  // compiled in by --features only
   real w = chance_weight(launch, walk, light_pdf_environment(scene));
-  walk->radiance += walk->beta * load3(scene->lights[scene->info.environment].value) * w;
+  walk_gather(walk, walk->beta * load3(scene->lights[scene->info.environment].value), w, 0u, depth);
 #endif
 }
 
 /// The ray hit a surface that emits towards it.
 INLINE void walk_emission(PRIVATE const SceneData* scene, Launch launch, PRIVATE const Surface* s,
-                          PRIVATE Walk* walk) {
+                          uint depth, PRIVATE Walk* walk) {
 #if FEAT_LIGHT_TRIANGLE || FEAT_LIGHT_SPHERE || FEAT_LIGHT_DISK
   real3 emitted = light_emitted(scene, s, -walk->ray.d);
   if (is_black(emitted)) return;
@@ -49,7 +56,7 @@ INLINE void walk_emission(PRIVATE const SceneData* scene, Launch launch, PRIVATE
 #if INTG_MIS
   if (walk->pdf_w > REAL(0.0)) pdf_light = light_pdf_surface(scene, s, walk->p_prev, walk->ray.d);
 #endif
-  walk->radiance += walk->beta * emitted * chance_weight(launch, walk, pdf_light);
+  walk_gather(walk, walk->beta * emitted, chance_weight(launch, walk, pdf_light), 0u, depth);
 #endif
 }
 
@@ -82,7 +89,7 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
 #if INTG_MIS
   if (!light.delta) w = mis_weight(launch.mis, light.pdf_w, e.pdf_w * (real)v->material.survive, 1);
 #endif
-  walk->radiance += walk->beta * e.f * light.radiance * (cos_wi * w / light.pdf_w);
+  walk_gather(walk, walk->beta * e.f * light.radiance * (cos_wi / light.pdf_w), w, 1u, bounce + 2u);
 #endif
 }
 
@@ -126,11 +133,11 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
     ++walk.rays;
     Hit hit = bvh_trace(scene, walk.ray, 0);
     if (hit.prim == NONE) {
-      walk_escaped(scene, launch, &walk);
+      walk_escaped(scene, launch, depth, &walk);
       break;
     }
     Surface surface = surface_at(scene, walk.ray, hit);
-    walk_emission(scene, launch, &surface, &walk);
+    walk_emission(scene, launch, &surface, depth, &walk);
     if (depth == limit) {
       if (launch.max_depth > limit) diag_count(scene, DIAG_path_stuck);
       break;
