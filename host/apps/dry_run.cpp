@@ -79,8 +79,7 @@ std::string as_text(const RenderFacts& f, FeatureSet features, const MemoryPlan&
 void tell_plan(const RenderFacts& f, const std::vector<std::string>& outputs,
                const CommonOptions& common) {
   const RenderOptions& o = f.options;
-  const MemoryPlan memory =
-      plan_memory(*f.device, *f.packed, *f.integrator, o.window(), o.memory, o.host_bytes);
+  const MemoryPlan memory = plan_memory(*f.device, *f.packed, *f.integrator, o);
   const Specialisation special = specialise(*f.packed, *f.integrator, *f.device, o.plan);
   const KernelFiles files(o.plan.kernel_dir);
   for (const Pass& pass : f.integrator->passes)  // a missing file shows

@@ -17,6 +17,13 @@
 namespace pellucid {
 namespace {
 
+/// The scene's own picture.
+RenderOptions scene_options(const Scene& scene) {
+  RenderOptions o;
+  o.width = scene.settings.width, o.height = scene.settings.height;
+  return o;
+}
+
 struct SceneFacts {
   const Scene& scene;
   const PackedScene& packed;
@@ -27,8 +34,8 @@ struct SceneFacts {
       : scene(s),
         packed(p),
         device(d),
-        memory(buffer_sizes(p, choose_integrator("", s),
-                            std::size_t(s.settings.width) * std::size_t(s.settings.height))) {}
+        memory(buffer_sizes(p, choose_integrator("", s), scene_options(s),
+                            std::size_t(s.settings.height))) {}
 };
 
 nlohmann::json methods_json(const SceneFacts& f) {

@@ -221,7 +221,7 @@ ExitCode RenderJob::run() {
   const Device target = flags_.device.open();
   // Building a BVH is wasted time if not even the film fits.
   const RenderOptions& o = facts_.options;
-  plan_memory(target.info(), {}, *facts_.integrator, o.window(), o.memory, o.host_bytes);
+  plan_memory(target.info(), {}, *facts_.integrator, o);
   facts_.device = &target.info();
   facts_.seconds.load = total_.seconds();
 

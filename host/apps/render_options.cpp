@@ -37,6 +37,9 @@ uint parse_mis(const std::string& text, const Integrator& method) {
   if (text != "balance" && !method.weighs)
     throw UsageError("--mis " + text + " has no effect on '" + method.name +
                      "', which combines nothing");
+  if (text == "max" && method.wishes.has(INTG_CONNECT))
+    throw UsageError("--mis max is for `path` alone: '" + method.name +
+                     "' weighs too many strategies to look for the best");
   return text == "power" ? MIS_POWER : text == "max" ? MIS_MAX : MIS_BALANCE;
 }
 
@@ -62,6 +65,19 @@ std::string one_of(const std::string& option, const std::string& text,
                    did_you_mean(text, choices));
 }
 
+/// What concerns sub-paths from lights. Throws UsageError where the method has none.
+void set_sub_paths(const RenderFlags& flags, const Integrator& method, RenderOptions& o) {
+  if (flags.light_paths) {
+    if (!method.wishes.has(INTG_SPLAT))
+      throw UsageError("--light-paths has no effect on '" + method.name + "', which traces none");
+    o.light_paths = uint(flags.light_paths);
+  }
+  if (flags.vertices.empty()) return;
+  o.plan.compact_vertices = one_of("--vertices", flags.vertices, {"full", "compact"}) == "compact";
+  if (!method.uses(Bundle::light_vertices))
+    throw UsageError("--vertices has no effect on '" + method.name + "', which stores none");
+}
+
 /// Everything that --aov takes: the film's own channels, then those of the AOV pass.
 std::vector<std::string> aov_names() {
   std::vector<std::string> names{"variance", "samples"};
@@ -83,7 +99,9 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
   app.add_option("-i,--integrator", f.integrator,
                  "the method (default: the scene's, else path). " + methods)
       ->type_name(integrator_names());
-  app.add_option("--mis", f.mis, "how `path` weighs its two strategies (default balance)")
+  app.add_option(
+         "--mis", f.mis,
+         "how `path` and `bdpt` weigh their strategies (default balance); max: `path` alone")
       ->type_name("balance|power|max");
   app.add_option("--spp", f.spp, "samples per pixel (default: the scene's, else 64)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));
@@ -95,6 +113,12 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
       ->type_name("sobol|random");
   app.add_option("--filter", f.filter, "pixel filter (default: the scene's, else gaussian)")
       ->type_name(fmt::format("{}", fmt::join(pixel_filter_names(), "|")));
+  app.add_option("--light-paths", f.light_paths,
+                 "light paths of an iteration, for the whole picture (default: one per pixel)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xfffffffe}));
+  app.add_option("--vertices", f.vertices,
+                 "how `bdpt` keeps vertices: full (default), or compact, in half the memory")
+      ->type_name("full|compact");
   app.add_option("--seed", f.seed, "random seed (default 0)")->check(whole_number);
 }
 
@@ -186,6 +210,7 @@ RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) con
   if (max_depth) o.max_depth = uint(max_depth);
   if (!max_depth && s.settings.max_depth) o.max_depth = uint(*s.settings.max_depth);
   o.mis = parse_mis(mis, method);
+  set_sub_paths(*this, method, o);
   o.plan.sampler = find_sampler(sampler);
   o.plan.extra_features = parse_feature_request(features);
   o.plan.kernel_dir = kernel_dir;

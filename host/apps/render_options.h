@@ -17,11 +17,11 @@ namespace pellucid {
 struct RenderFlags {
   std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, size, crop,
                                  passes, features = "auto", kernel_dir, stats, memory, checkpoint,
-                                 every;
+                                 every, vertices;
   std::vector<std::string> overrides, outputs, aovs;
   DeviceFlags device;
   DisplayFlags display;
-  std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0;
+  std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0, light_paths = 0;
   bool strict = false, deterministic = false, resume = false, dry_run = false;
 
   void declare(CLI::App& app);

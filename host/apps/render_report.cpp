@@ -55,10 +55,14 @@ std::string counters_text(const std::vector<Counter>& counters) {
 
 std::string settings_text(const Scene& scene, const RenderOptions& o) {
   const Window w = o.window();
-  return fmt::format("{}x{} crop {},{},{},{} max-depth {} mis {} filter {} sampler {}", o.width,
-                     o.height, w.x0, w.x0 + w.width, w.y0, w.y0 + w.height,
-                     o.max_depth ? std::to_string(*o.max_depth) : "unlimited", mis_name(o.mis),
-                     pixel_filter_info(scene.settings.filter).name, sampler_name(o.plan.sampler));
+  std::string text =
+      fmt::format("{}x{} crop {},{},{},{} max-depth {} mis {} filter {} sampler {}", o.width,
+                  o.height, w.x0, w.x0 + w.width, w.y0, w.y0 + w.height,
+                  o.max_depth ? std::to_string(*o.max_depth) : "unlimited", mis_name(o.mis),
+                  pixel_filter_info(scene.settings.filter).name, sampler_name(o.plan.sampler));
+  if (o.light_paths) text += fmt::format(" light-paths {}", *o.light_paths);
+  if (o.plan.compact_vertices) text += " vertices compact";
+  return text;
 }
 
 const char* mis_name(uint mis) {

@@ -7,7 +7,11 @@
 namespace pellucid {
 
 const std::vector<Integrator>& integrators() {
-  static const std::vector<Integrator> table = path_integrators();
+  static const std::vector<Integrator> table = [] {
+    std::vector<Integrator> all = path_integrators();
+    for (const Integrator& i : bidirectional_integrators()) all.push_back(i);
+    return all;
+  }();
   return table;
 }
 

@@ -19,5 +19,7 @@ inline const char* default_integrator() {
 
 /// path.cpp: naive, nee, path, reference.
 std::vector<Integrator> path_integrators();
+/// bidir.cpp: light, bdpt.
+std::vector<Integrator> bidirectional_integrators();
 
 }  // namespace pellucid

@@ -24,6 +24,8 @@ class HalfFilter {
   explicit HalfFilter(const PixelFilterInfo& f) : f_(f) {
     for (int p = pieces; p-- > 0;) beyond_[p] = beyond_[p + 1] + integral(f, at(p), at(p + 1));
   }
+  /// The integral of the filter on both sides.
+  double whole() const { return 2 * beyond_[0]; }
   /// x with `share` of the whole beyond it.
   double offset(double share) const {
     const double goal = share * beyond_[0];
@@ -59,6 +61,9 @@ void pack_filter(const Scene& scene, PackedScene& out) {
   }
   out.filter_table.front() = float(f.radius);
   out.filter_table.back() = 0.0f;
+  out.filter_values.resize(FILTER_STEPS + 1);
+  for (uint i = 0; i <= FILTER_STEPS; ++i)
+    out.filter_values[i] = float(f.value(f.radius * i / FILTER_STEPS) / half.whole());
 }
 
 }  // namespace pellucid

@@ -145,6 +145,7 @@ void pack_lights(const Scene& scene, PackedScene& out) {
     if (scene.shapes[i].emission && mean(scene.shapes[i].emission->radiance) > 0.0)
       builder.add_shape(scene.shapes[i], out.shapes[i]);
   for (const Light& light : scene.lights) builder.add_light(light);
+  out.light_power = std::accumulate(builder.power.begin(), builder.power.end(), 0.0);
   if (!out.lights.empty()) build_alias(builder.power, out.lights);
   out.info.light_count = static_cast<uint>(out.lights.size());
   out.brightness_exponent = brightness_exponent(out);

@@ -55,6 +55,7 @@ PackedScene pack_scene(const Scene& scene, const PackOptions& options) {
   never_empty(out.normals), never_empty(out.shapes), never_empty(out.materials);
   never_empty(out.lights), never_empty(out.uvs), never_empty(out.textures);
   never_empty(out.texels), never_empty(out.filter_table);
+  never_empty(out.filter_values);
   return out;
 }
 

@@ -32,11 +32,13 @@ struct PackedScene {
   std::vector<::Texture> textures;
   std::vector<uint> texels;  ///< [texels][2]
   std::vector<::Light> lights;
-  std::vector<float> filter_table;  ///< [FILTER_STEPS + 1], or empty for the box
+  std::vector<float> filter_table;   ///< [FILTER_STEPS + 1], or empty for the box
+  std::vector<float> filter_values;  ///< the same
   SceneInfo info{};
   ::Camera camera{};
   FeatureSet features;          ///< what the scene needs
   int brightness_exponent = 0;  ///< 2^it is at least the radiance of the brightest light
+  double light_power = 0;       ///< of all lights [W], the mean of the channels
   int simd_width = 8;
   uint stack_bound = 0;  ///< traversal stack entries needed
   bvh::Statistics bvh;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "render/launch.h"
 
 namespace pellucid {
 namespace {
@@ -149,15 +150,12 @@ std::vector<AovChannel> render_aovs(Device device, const PackedScene& scene,
   const bool filtered =
       std::any_of(asked.begin(), asked.end(), [](const AovInfo& info) { return info.filtered; });
   const uint iterations = filtered ? AOV_ITERATIONS : 1;
-  const MemoryPlan memory = plan_memory(device.info(), scene, aov_method(), options.window(),
-                                        options.memory, options.host_bytes);
+  const MemoryPlan memory = plan_memory(device.info(), scene, aov_method(), options);
   AovPass pass(std::move(device), scene, options.plan, memory);
-  Launch launch{};
-  launch.width = uint(options.width), launch.height = uint(options.height);
+  Launch launch = make_launch(scene, options.width, options.height, options.window());
   launch.seed = hash_seed(options.seed);
   for (const Window& tile : memory.tiles) {  // bands of rows, from the top
-    launch.tile_x = uint(tile.x0), launch.tile_y = uint(tile.y0);
-    launch.tile_width = uint(tile.width), launch.tile_height = uint(tile.height);
+    set_tile(launch, tile);
     append_tile(asked, pass.run(launch, iterations), iterations, channels);
   }
   pass.collect(counters);

@@ -1,6 +1,7 @@
 // An integrator is a table: what it asks of kernels and which passes make an iteration.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -9,13 +10,35 @@
 namespace pellucid {
 
 /// Bundles of kernels/shared/buffers.h, in the order of a kernel's parameters.
-enum class Bundle { scene, filter, film, splat, aov, diag };
+enum class Bundle {
+  scene,
+  filter,
+  film,
+  splat,
+  light_vertices,
+  eye_vertices,
+  vertex_counts,
+  aov,
+  diag
+};
+
+/// What a pass has one work-item for. Tiles are cut into slices, rows of pixels with the light
+/// paths that go with them, so that vertices of sub-paths need little memory. Passes over slices
+/// come first, one slice after another; then those over the tile.
+enum class Domain {
+  tile,         ///< pixels of the tile
+  slice,        ///< pixels of the slice
+  light_paths,  ///< light paths of the slice
+  sub_paths,    ///< light paths and pixels of the slice
+  sides,        ///< two work-groups: the light's side and the eye's
+};
 
 /// One kernel per iteration. `name` is the file passes/<name>.cl, its kernel, its timer and its row
 /// in every report.
 struct Pass {
   std::string name;
   std::vector<Bundle> bundles;  ///< parameters before the launch struct
+  Domain domain = Domain::tile;
 };
 
 struct Integrator {
@@ -23,7 +46,14 @@ struct Integrator {
   std::string summary;       ///< one line for --help
   FeatureSet wishes;         ///< INTG_* flags
   bool weighs = false;       ///< combines strategies, so --mis has an effect
-  std::vector<Pass> passes;  ///< in order; domain: pixels
+  std::vector<Pass> passes;  ///< in order
+
+  bool uses(Bundle bundle) const {
+    for (const Pass& pass : passes)
+      if (std::find(pass.bundles.begin(), pass.bundles.end(), bundle) != pass.bundles.end())
+        return true;
+    return false;
+  }
 };
 
 }  // namespace pellucid

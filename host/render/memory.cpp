@@ -14,13 +14,6 @@
 namespace pellucid {
 namespace {
 
-bool uses(const Integrator& integrator, Bundle bundle) {
-  for (const Pass& pass : integrator.passes)
-    for (Bundle b : pass.bundles)
-      if (b == bundle) return true;
-  return false;
-}
-
 std::uint64_t total(const std::map<std::string, std::size_t>& buffers) {
   std::uint64_t sum = 0;
   for (const auto& [name, bytes] : buffers) sum += bytes;
@@ -46,6 +39,16 @@ std::uint64_t host_memory() {
   return std::uint64_t(sysconf(_SC_PHYS_PAGES)) / 4 * 3 * std::uint64_t(sysconf(_SC_PAGESIZE));
 }
 
+/// Buffers of one side's vertices.
+void add_vertices(const PlanOptions& options, const std::string& side, std::size_t paths,
+                  std::map<std::string, std::size_t>& bytes) {
+  const std::size_t capacity = std::size_t(double(paths) * options.vertices_per_path) + 1;
+  bytes[side + "_vertices"] = capacity * vertex_bytes(options);
+  bytes[side + "_order"] = capacity * sizeof(uint);
+  bytes[side + "_last"] = paths * sizeof(uint);
+  bytes[side + "_first"] = (paths + 1) * sizeof(uint);
+}
+
 void check_host(std::uint64_t film_bytes) {
   if (film_bytes > host_memory())
     throw DeviceError(
@@ -65,39 +68,68 @@ std::size_t MemoryPlan::tile_pixels() const {
   return tiles.front().pixels();  // the last one may be smaller
 }
 
+uint slice_rows(std::size_t row_pixels, std::size_t tile_rows) {
+  // Enough work for any device, and few enough vertices to stay near its caches.
+  constexpr std::size_t enough = std::size_t{1} << 16;
+  return uint(std::clamp<std::size_t>(enough / std::max<std::size_t>(row_pixels, 1), 1,
+                                      std::max<std::size_t>(tile_rows, 1)));
+}
+
+std::size_t slice_paths(const RenderOptions& options, std::size_t slice_pixels) {
+  // A slice of a crop spans what lies between its rows, too.
+  const std::size_t width = std::size_t(options.width), crop = std::size_t(options.window().width);
+  const double spanned = double(slice_pixels) / double(crop) * double(width);
+  const double ratio =
+      double(options.light_path_count()) / (double(options.width) * double(options.height));
+  return std::size_t(spanned * ratio) + 2;
+}
+
+std::size_t vertex_bytes(const PlanOptions& options) {
+  return options.compact_vertices ? sizeof(CompactVertex) : sizeof(PathVertex);
+}
+
 std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
-                                                const Integrator& integrator, std::size_t pixels) {
+                                                const Integrator& integrator,
+                                                const RenderOptions& options, std::size_t rows) {
   std::map<std::string, std::size_t> bytes;
+  const std::size_t row_pixels = std::size_t(options.window().width);
+  const std::size_t pixels = rows * row_pixels;
 #define PELLUCID_SCENE_BYTES(T, name, meaning) bytes[#name] = bytes_of(scene.name);
   SCENE_BUFFERS(PELLUCID_SCENE_BYTES)
   FILTER_BUFFERS(PELLUCID_SCENE_BYTES)
 #undef PELLUCID_SCENE_BYTES
-  if (uses(integrator, Bundle::film)) {
+  if (integrator.uses(Bundle::film)) {
     bytes["samples"] = pixels * sizeof(F4);
     bytes["film"] = pixels * sizeof(FilmPixel);
   }
-  if (uses(integrator, Bundle::aov)) bytes["aovs"] = pixels * sizeof(AovPixel);
+  if (integrator.uses(Bundle::aov)) bytes["aovs"] = pixels * sizeof(AovPixel);
   bytes["diag"] = DIAG_COUNT * sizeof(uint);
-  constexpr std::size_t words_per_pixel = 6;  // three channels of 64 bits
-  if (uses(integrator, Bundle::splat)) bytes["splats"] = pixels * words_per_pixel * sizeof(uint);
+  if (integrator.uses(Bundle::splat)) bytes["splats"] = pixels * SPLAT_WORDS * sizeof(uint);
+  const std::size_t slice = slice_rows(row_pixels, rows) * row_pixels;
+  if (integrator.uses(Bundle::light_vertices))
+    add_vertices(options.plan, "light", slice_paths(options, slice), bytes);
+  if (integrator.uses(Bundle::eye_vertices)) add_vertices(options.plan, "eye", slice, bytes);
+  if (integrator.uses(Bundle::vertex_counts)) bytes["vertex_counts"] = 2 * sizeof(uint);
   return bytes;
 }
 
 MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
-                       const Integrator& integrator, const Window& window,
-                       std::optional<std::uint64_t> limit, std::uint64_t host_bytes) {
+                       const Integrator& integrator, const RenderOptions& options) {
+  const Window window = options.window();
+  const std::uint64_t host_bytes = options.host_bytes;
   const std::uint64_t film_bytes = window.pixels() * sizeof(FilmPixel);
   check_host(film_bytes + host_bytes);
-  std::uint64_t most = std::min(limit.value_or(device.memory), device.memory);
+  std::uint64_t most = std::min(options.memory.value_or(device.memory), device.memory);
   // A CPU device's memory is the host's, where the film is already.
   if (device.cpu) most = std::min(most, host_memory() - film_bytes - host_bytes);
   const auto sizes = [&](int rows) {
-    return buffer_sizes(scene, integrator, std::size_t(rows) * std::size_t(window.width));
+    return buffer_sizes(scene, integrator, options, std::size_t(rows));
   };
-  const bool asked = limit && most == *limit;
+  const bool asked = options.memory && most == *options.memory;
   const auto fits = [&](int rows) { return objection(device, most, asked, sizes(rows)).empty(); };
   MemoryPlan plan;
   plan.film_bytes = film_bytes;
+  plan.limit = most;
   if (!fits(1)) throw DeviceError(objection(device, most, asked, sizes(1)));
   int low = 1, high = window.height;  // bisection: what `low` rows need fits
   while (low < high) {
@@ -114,6 +146,7 @@ MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
     low = int(std::min(std::uint64_t(low), std::max<std::uint64_t>(1, enough / row)));
   }
   plan.buffers = sizes(low);
+  plan.slice_rows = slice_rows(std::size_t(window.width), std::size_t(low));
   for (int row = 0; row < window.height; row += low)
     plan.tiles.push_back(
         {window.x0, window.y0 + row, window.width, std::min(low, window.height - row)});

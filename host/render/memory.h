@@ -12,6 +12,7 @@
 #include "pack/pack.h"
 #include "render/film.h"
 #include "render/integrator.h"
+#include "render/options.h"
 
 namespace pellucid {
 
@@ -19,21 +20,33 @@ struct MemoryPlan {
   std::map<std::string, std::size_t> buffers;  ///< name and bytes on the device
   std::vector<Window> tiles;     ///< bands of rows, of which the device holds one at a time
   std::uint64_t film_bytes = 0;  ///< the whole film, kept by the host
+  uint slice_rows = 1;           ///< rows of a tile in one slice (render/integrator.h)
+  std::uint64_t limit = 0;       ///< most bytes on the device, as buffers of vertices grow
 
   std::uint64_t device_bytes() const;
   std::size_t tile_pixels() const;  ///< of the largest tile
 };
 
-/// Name and size of every device buffer that rendering `scene` with `integrator` needs for a tile
-/// of so many pixels.
-std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
-                                                const Integrator& integrator, std::size_t pixels);
+/// Rows of a tile in one slice, at most.
+uint slice_rows(std::size_t row_pixels, std::size_t tile_rows);
 
-/// Plans for `window` of the picture within what the device reports and, if given, `limit` bytes of
-/// device memory; `host_bytes` are needed by the host beside the film. Throws DeviceError with the
-/// figures where not even one row of pixels fits, or the host cannot hold the film.
+/// Most light paths of one launch that stores their vertices: those that slices of so many pixels
+/// are paired with.
+std::size_t slice_paths(const RenderOptions& options, std::size_t slice_pixels);
+
+/// Bytes of one vertex of a sub-path in memory.
+std::size_t vertex_bytes(const PlanOptions& options);
+
+/// Name and size of every device buffer that rendering `scene` with `integrator` needs at first for
+/// a tile of so many rows.
+std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
+                                                const Integrator& integrator,
+                                                const RenderOptions& options, std::size_t rows);
+
+/// Plans for the options' window of the picture within what the device reports and, if given,
+/// options.memory bytes of it. Throws DeviceError with the figures where not even one row of pixels
+/// fits, or the host cannot hold the film.
 MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
-                       const Integrator& integrator, const Window& window,
-                       std::optional<std::uint64_t> limit, std::uint64_t host_bytes);
+                       const Integrator& integrator, const RenderOptions& options);
 
 }  // namespace pellucid

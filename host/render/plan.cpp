@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "render/memory.h"
 #include "shared/buffers.h"
+#include "shared/limits.h"
 
 namespace pellucid {
 std::vector<std::string> bundle_buffers(Bundle bundle) {
@@ -19,6 +20,12 @@ std::vector<std::string> bundle_buffers(Bundle bundle) {
       return {FILM_BUFFERS(PELLUCID_NAME)};
     case Bundle::splat:
       return {SPLAT_BUFFERS(PELLUCID_NAME)};
+    case Bundle::light_vertices:
+      return {LIGHT_VERTEX_BUFFERS(PELLUCID_NAME)};
+    case Bundle::eye_vertices:
+      return {EYE_VERTEX_BUFFERS(PELLUCID_NAME)};
+    case Bundle::vertex_counts:
+      return {VERTEX_COUNT_BUFFERS(PELLUCID_NAME)};
     case Bundle::aov:
       return {AOV_BUFFERS(PELLUCID_NAME)};
     case Bundle::diag:
@@ -69,6 +76,8 @@ Specialisation specialise(const PackedScene& scene, const Integrator& integrator
   Specialisation s;
   s.features = scene.features | integrator.wishes | options.extra_features;
   if (options.sampler == Sampler::sobol) s.features.set(INTG_SOBOL);
+  if (options.compact_vertices && integrator.uses(Bundle::light_vertices))
+    s.features.set(INTG_COMPACT);
   s.simd_width = scene.simd_width;
   s.stack_bound = scene.stack_bound;
   s.simd_builtins = options.simd_builtins;
@@ -78,15 +87,23 @@ Specialisation specialise(const PackedScene& scene, const Integrator& integrator
 }
 
 Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator,
-           const PlanOptions& options, std::size_t tile_pixels)
+           const RenderOptions& options, const MemoryPlan& memory)
     : device_(std::move(device)),
-      options_(options),
-      specialisation_(specialise(scene, integrator, device_.info(), options)),
-      tile_pixels_(tile_pixels) {
-  const auto bytes = buffer_sizes(scene, integrator, tile_pixels_);
-  buffers_ = upload_scene(device_, scene);
-  for (const auto& [name, size] : bytes)
+      options_(options.plan),
+      specialisation_(specialise(scene, integrator, device_.info(), options_)),
+      scene_info_(scene.info),
+      camera_(scene.camera),
+      tile_pixels_(memory.tile_pixels()),
+      memory_limit_(memory.limit),
+      slice_rows_(memory.slice_rows),
+      buffers_(upload_scene(device_, scene)) {
+  for (const auto& [name, size] : memory.buffers)
     if (!buffers_.count(name)) buffers_[name] = device_.create_buffer(name, size);
+  if (integrator.uses(Bundle::vertex_counts))
+    for (const auto& [side, trace] : {std::pair{"light", "light_trace"}, {"eye", "camera_trace"}})
+      sides_.push_back({side, trace,
+                        buffers_.at(side + std::string("_last")).bytes() / sizeof(uint),
+                        buffers_.at(side + std::string("_order")).bytes() / sizeof(uint)});
   const KernelFiles files(options_.kernel_dir);
   const std::string prelude = prelude_of(specialisation_);
   passes_.reserve(integrator.passes.size());
@@ -96,20 +113,22 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
     state.kernel = device_.build(pass.name, files.expand("passes/" + pass.name + ".cl", prelude),
                                  options_of(specialisation_));
     state.group = group_for(state.kernel, options_.group);
-    bind(state, scene);
+    if (pass.domain == Domain::sides)
+      state.group = std::min<std::size_t>(state.group, VERTEX_SCAN_GROUP);
+    bind(state);
     passes_.push_back(std::move(state));
   }
   warm_up();
 }
 
-void Plan::bind(PassState& state, const PackedScene& scene) {
+void Plan::bind(PassState& state) {
   unsigned index = 0;
   for (Bundle bundle : state.pass.bundles) {
     for (const std::string& name : bundle_buffers(bundle))
       state.kernel.set_buffer(index++, buffers_.at(name));
     if (bundle == Bundle::scene) {
-      state.kernel.set_bytes(index++, &scene.info, sizeof scene.info);
-      state.kernel.set_bytes(index++, &scene.camera, sizeof scene.camera);
+      state.kernel.set_bytes(index++, &scene_info_, sizeof scene_info_);
+      state.kernel.set_bytes(index++, &camera_, sizeof camera_);
     }
   }
   state.launch_index = index;
@@ -121,18 +140,50 @@ void Plan::warm_up() {
   const Launch nothing{};
   for (PassState& state : passes_) {
     state.kernel.set_bytes(state.launch_index, &nothing, sizeof nothing);
-    device_.launch(state.kernel, tile_pixels_, state.group, nullptr);
+    const bool sides = state.pass.domain == Domain::sides;
+    device_.launch(state.kernel, sides ? 2 * state.group : tile_pixels_, state.group, nullptr);
   }
   device_.finish();
+}
+
+void Plan::launch(PassState& state, const Launch& launch) {
+  std::size_t domain = 0;
+  switch (state.pass.domain) {
+    case Domain::tile:
+      domain = std::size_t(launch.tile_width) * launch.tile_height;
+      break;
+    case Domain::slice:
+      domain = launch.slice_count;
+      break;
+    case Domain::light_paths:
+      domain = launch.path_count;
+      break;
+    case Domain::sub_paths:
+      domain = std::size_t(launch.path_count) + launch.slice_count;
+      break;
+    case Domain::sides:
+      domain = 2 * state.group;
+      break;
+  }
+  state.kernel.set_bytes(state.launch_index, &launch, sizeof launch);
+  device_.launch(state.kernel, domain, state.group, &state.time);
+}
+
+PassState& Plan::pass_named(const std::string& name) {
+  for (PassState& state : passes_)
+    if (state.pass.name == name) return state;
+  throw InternalError("no pass is called " + name);
 }
 
 void Plan::enqueue(const Launch& launch) {
   const std::size_t pixels = std::size_t(launch.tile_width) * launch.tile_height;
   PELLUCID_CHECK(pixels <= tile_pixels_, "a tile fits the buffers");
-  for (PassState& state : passes_) {
-    state.kernel.set_bytes(state.launch_index, &launch, sizeof launch);
-    device_.launch(state.kernel, pixels, state.group, &state.time);
-  }
+  if (sides_.empty())
+    run_whole(launch);
+  else
+    run_slices(launch);
+  for (PassState& state : passes_)
+    if (state.pass.domain == Domain::tile) this->launch(state, launch);
 }
 
 void Plan::read_film(FilmPixel* film, std::size_t pixels) {

@@ -2,6 +2,7 @@
 // bound.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,22 +13,11 @@
 #include "render/diagnostics.h"
 #include "render/film.h"
 #include "render/integrator.h"
-#include "render/sampler.h"
+#include "render/memory.h"
+#include "render/options.h"
 #include "render/specialise.h"
 
 namespace pellucid {
-
-/// Work-items per group where nothing else is asked for: enough that dispatch costs nothing on
-/// CPUs.
-constexpr std::size_t default_group = 64;
-
-struct PlanOptions {
-  Sampler sampler = Sampler::sobol;
-  FeatureSet extra_features;  ///< on top of what the scene needs
-  std::string kernel_dir;     ///< read kernels from here instead of the binary
-  std::size_t group = 0;      ///< work-items per group; 0: default_group or what the kernel can
-  bool simd_builtins = true;
-};
 
 /// Parameter names of a bundle, from the kernels' own list (kernels/shared/buffers.h).
 std::vector<std::string> bundle_buffers(Bundle bundle);
@@ -62,9 +52,10 @@ class Plan {
   /// Uploads the scene, allocates the film of a tile (cleared) and builds all passes, code
   /// generation included, so that the first iteration is as fast as the last. Throws DeviceError.
   Plan(Device device, const PackedScene& scene, const Integrator& integrator,
-       const PlanOptions& options, std::size_t tile_pixels);
+       const RenderOptions& options, const MemoryPlan& memory);
 
-  /// Enqueues one iteration over the launch's tile; returns at once.
+  /// Enqueues one iteration over the launch's tile; methods that store vertices wait for parts of
+  /// it. Throws DeviceError where those of one row of pixels exceed memory.
   void enqueue(const Launch& launch);
   void finish() { device_.finish(); }
 
@@ -79,13 +70,36 @@ class Plan {
   const Specialisation& specialisation() const { return specialisation_; }
 
  private:
-  void bind(PassState& state, const PackedScene& scene);
+  /// One side's vertices of sub-paths.
+  struct Side {
+    std::string name;          ///< in front of its buffers' names
+    std::string trace;         ///< the pass that makes them
+    std::size_t paths = 0;     ///< most of a launch
+    std::size_t capacity = 0;  ///< vertices
+  };
+
+  void bind(PassState& state);
   void warm_up();
+  void launch(PassState& state, const Launch& launch);
+  PassState& pass_named(const std::string& name);
+  // plan_slices.cpp
+  void run_slices(Launch launch);
+  void run_whole(Launch launch);
+  void splat_paths(Launch launch, uint first, uint end);
+  bool traces_side(const Pass& pass) const;
+  std::array<uint, 2> take_vertex_counts();
+  bool settle_vertices(Launch launch);
+  bool make_room(Side& side, std::size_t needed);
 
   Device device_;
   PlanOptions options_;
   Specialisation specialisation_;
+  SceneInfo scene_info_;
+  ::Camera camera_;
   std::size_t tile_pixels_;
+  std::uint64_t memory_limit_;
+  uint slice_rows_ = 1;      ///< fewer where vertices would exceed memory
+  std::vector<Side> sides_;  ///< light, eye; empty for methods that store none
   std::map<std::string, Buffer> buffers_;
   std::vector<PassState> passes_;
 };

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/timer.h"
+#include "render/launch.h"
 #include "shared/limits.h"
 
 namespace pellucid {
@@ -22,7 +23,7 @@ constexpr double least_work_per_swap = 20.0;
 Plan timed_plan(const Device& device, const PackedScene& scene, const Integrator& integrator,
                 const RenderOptions& options, const MemoryPlan& memory, double& seconds) {
   const Timer timer;
-  Plan plan(device, scene, integrator, options.plan, memory.tile_pixels());
+  Plan plan(device, scene, integrator, options, memory);
   seconds = timer.seconds();
   return plan;
 }
@@ -36,8 +37,7 @@ std::uint64_t block_size_of(const Plan& plan) {
 Session::Session(const Device& device, const PackedScene& scene, const Integrator& integrator,
                  const RenderOptions& options, std::optional<Film> start)
     : options_(options),
-      memory_(plan_memory(device.info(), scene, integrator, options.window(), options.memory,
-                          options.host_bytes)),
+      memory_(plan_memory(device.info(), scene, integrator, options)),
       plan_(timed_plan(device, scene, integrator, options, memory_, kernel_seconds_)),
       film_(options.width, options.height, options.window(),
             scene.brightness_exponent - FILM_FRACTION_BITS, block_size_of(plan_)) {
@@ -49,13 +49,11 @@ Session::Session(const Device& device, const PackedScene& scene, const Integrato
                    "a film to go on with is of the same picture");
     film_ = std::move(*start);
   }
-  launch_.width = uint(options_.width);
-  launch_.height = uint(options_.height);
+  launch_ = make_launch(scene, options_.width, options_.height, options_.window(),
+                        options_.light_paths.value_or(0));
   launch_.seed = hash_seed(options_.seed);
   launch_.max_depth = options_.max_depth.value_or(NONE);
   launch_.mis = options_.mis;
-  launch_.film_lsb = film_.lsb;
-  launch_.splat_scale = 1048576.0f;  // no method here splats yet; light tracing sets it by power
 }
 
 /// The next passes to do, at most `most` and within one block unless every block on the way is new
@@ -101,8 +99,7 @@ void Session::render_batch(const Batch& batch) {
   const bool one_tile = memory_.tiles.size() == 1;
   double swapping = 0;
   for (const Window& tile : memory_.tiles) {
-    launch_.tile_x = uint(tile.x0), launch_.tile_y = uint(tile.y0);
-    launch_.tile_width = uint(tile.width), launch_.tile_height = uint(tile.height);
+    set_tile(launch_, tile);
     Timer swap;
     to_device(tile);
     swapping += swap.seconds();

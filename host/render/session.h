@@ -12,21 +12,6 @@
 
 namespace pellucid {
 
-struct RenderOptions {
-  int width = 512, height = 512;    ///< of the whole picture; must agree with the packed camera
-  std::optional<Window> crop;       ///< the part to render; absent: all of it
-  std::optional<PassRange> passes;  ///< global passes to have in the end
-  std::optional<double> seconds;    ///< ends the render after the iteration in hand
-  std::uint64_t seed = 0;
-  std::optional<uint> max_depth;  ///< segments; absent = unlimited
-  uint mis = MIS_BALANCE;
-  std::optional<std::uint64_t> memory;  ///< most bytes on the device
-  std::uint64_t host_bytes = 0;         ///< what the host needs beside the film, as for checkpoints
-  PlanOptions plan;
-
-  Window window() const { return crop.value_or(Window{0, 0, width, height}); }
-};
-
 /// Polled between batches of iterations.
 struct RenderHooks {
   std::function<bool()> stop;  ///< true: end after the pass in hand

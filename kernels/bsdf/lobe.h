@@ -26,8 +26,10 @@ typedef struct BsdfEval {
 typedef struct BsdfSample {
   real3 wi;  // unit, local
   real3 weight;
-  real pdf_w;  // [1/sr]; 0 for a delta lobe
-  int delta;   // wi is the only direction
+  real pdf_w;    // [1/sr]; 0 for a delta lobe
+  real reverse;  // delta lobe: density of the way back over that of the way there, in solid angles:
+                 // |dwi/dwo|, 1 unless refraction narrows or widens the beam
+  int delta;     // wi is the only direction
 } BsdfSample;
 
 INLINE BsdfEval bsdf_eval_none(void) {
@@ -41,6 +43,7 @@ INLINE BsdfSample bsdf_sample_none(void) {
   s.wi = REAL3(0.0f, 0.0f, 1.0f);
   s.weight = REAL3(0.0f, 0.0f, 0.0f);
   s.pdf_w = REAL(0.0);
+  s.reverse = REAL(1.0);
   s.delta = 0;
   return s;
 }

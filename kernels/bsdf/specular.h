@@ -26,6 +26,8 @@ INLINE BsdfSample dielectric_sample(BsdfContext c, real lobe) {
   } else {
     real inv = REAL(1.0) / c.eta;
     s.wi = REAL3(-c.wo.x * inv, -c.wo.y * inv, -cos_t);
+    // n^2 cos dw is the same on both sides [Veach97 5.2].
+    s.reverse = c.wo.z * inv * inv / cos_t;
     real scale = c.importance ? REAL(1.0) : inv * inv;
     s.weight = REAL3(scale, scale, scale);
   }

@@ -24,6 +24,34 @@ INLINE real filter_offset(GLOBAL const float* filter_table, real u) {
   return sign_of(low + (high - low) * (r - (real)k), t);
 }
 
+#if INTG_FILTER
+/// The filter [1/pixel] at an offset given in steps of FILTER_STEPS to its radius; 0 beyond.
+INLINE real filter_value(GLOBAL const float* filter_values, real step) {
+  uint k = (uint)step;
+  if (k >= FILTER_STEPS) return REAL(0.0);
+  real low = (real)filter_values[k], high = (real)filter_values[k + 1u];
+  return low + (high - low) * (step - (real)k);
+}
+
+/// Of the pixels whose filter reaches film coordinate x, one drawn in proportion to the filter
+/// there; *weight: the sum over all of them, about 1. So splats get the filter that samples are
+/// drawn from.
+INLINE int filter_pixel(GLOBAL const float* filter_table, GLOBAL const float* filter_values, real x,
+                        real u, PRIVATE real* weight) {
+  real radius = (real)filter_table[0], to_step = (real)FILTER_STEPS / radius;
+  int first = (int)r_floor(x - radius + REAL(0.5)), last = (int)r_floor(x + radius - REAL(0.5));
+  *weight = REAL(0.0);
+  for (int j = first; j <= last; ++j)
+    *weight += filter_value(filter_values, r_abs(x - (real)j - REAL(0.5)) * to_step);
+  real rest = u * *weight;
+  for (int j = first; j < last; ++j) {
+    rest -= filter_value(filter_values, r_abs(x - (real)j - REAL(0.5)) * to_step);
+    if (rest < REAL(0.0)) return j;
+  }
+  return last;
+}
+#endif
+
 /// Where a sample of the pixel (column, row) meets the film, by u.x and u.y.
 INLINE FilmPosition film_position(GLOBAL const float* filter_table, uint column, uint row,
                                   Random4 u) {

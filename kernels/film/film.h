@@ -2,19 +2,9 @@
 #ifndef PELLUCID_FILM_FILM_H
 #define PELLUCID_FILM_FILM_H
 
-#include "core/real.h"
+#include "core/codes.h"
 #include "shared/buffers.h"
 #include "shared/film_sums.h"
-
-INLINE uint float_bits(float x) {
-#if PELLUCID_DEVICE
-  return as_uint(x);
-#else
-  uint bits;
-  std::memcpy(&bits, &x, sizeof bits);
-  return bits;
-#endif
-}
 
 /// A channel's sample in steps of 2^lsb; *flaw receives 1 + counter where it does not fit.
 INLINE WideValue film_steps(float x, int lsb, PRIVATE int* flaw) {
@@ -65,17 +55,28 @@ INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, Launch l
 
 #if PELLUCID_DEVICE
 
+INLINE int film_in_tile(Launch launch, int x, int y) {
+  return x >= (int)launch.tile_x && y >= (int)launch.tile_y &&
+         x < (int)(launch.tile_x + launch.tile_width) &&
+         y < (int)(launch.tile_y + launch.tile_height);
+}
+
 /// Adds `steps` to a 64-bit counter kept as two words, low first. Integer sums are the same in any
-/// order, so splats do not depend on scheduling. Without 64-bit atomics the carry goes by hand.
-INLINE void splat_word(__global uint* word, ulong steps) {
+/// order, so splats do not depend on scheduling. Without 64-bit atomics the carry goes by hand. A
+/// sum that leaves 64 bits is counted.
+INLINE void splat_word(__global uint* word, __global uint* diag, ulong steps) {
 #if DEV_INT64_ATOMICS
-  atom_add((__global ulong*)word, steps);
+  ulong before = atom_add((__global ulong*)word, steps);
+  if (before + steps < before) diag_add(diag, DIAG_splat_saturated);
 #else
   uint low = (uint)steps;
   uint old = atomic_add(&word[0], low);
   uint carry = (old + low) < old ? 1u : 0u;
   uint high = (uint)(steps >> 32) + carry;
-  if (high) atomic_add(&word[1], high);
+  if (high) {
+    uint old_high = atomic_add(&word[1], high);
+    if (old_high + high < old_high) diag_add(diag, DIAG_splat_saturated);
+  }
 #endif
 }
 
@@ -93,9 +94,7 @@ INLINE ulong splat_steps(float value, float scale, __global uint* diag) {
 /// work-item.
 INLINE void film_splat(__global uint* splats, __global uint* diag, Launch launch, int x, int y,
                        float r, float g, float b) {
-  x -= (int)launch.tile_x;
-  y -= (int)launch.tile_y;
-  if (x < 0 || y < 0 || x >= (int)launch.tile_width || y >= (int)launch.tile_height) {
+  if (!film_in_tile(launch, x, y)) {
     diag_add(diag, DIAG_splat_outside);
     return;
   }
@@ -107,10 +106,23 @@ INLINE void film_splat(__global uint* splats, __global uint* diag, Launch launch
     diag_add(diag, DIAG_negative);
     return;
   }
-  __global uint* word = splats + ((size_t)y * launch.tile_width + (size_t)x) * 6;
-  splat_word(word, splat_steps(r, launch.splat_scale, diag));
-  splat_word(word + 2, splat_steps(g, launch.splat_scale, diag));
-  splat_word(word + 4, splat_steps(b, launch.splat_scale, diag));
+  uint pixel = ((uint)y - launch.tile_y) * launch.tile_width + ((uint)x - launch.tile_x);
+  __global uint* word = splats + (size_t)pixel * SPLAT_WORDS;
+  splat_word(word, diag, splat_steps(r, launch.splat_scale, diag));
+  splat_word(word + 2, diag, splat_steps(g, launch.splat_scale, diag));
+  splat_word(word + 4, diag, splat_steps(b, launch.splat_scale, diag));
+}
+
+/// Books the rays of a light path on a pixel of the window, so that no pixel gets many at once and
+/// that bands, which trace it again, do not count it again.
+INLINE void film_count_rays(__global uint* splats, __global uint* diag, Launch launch, uint path,
+                            uint rays) {
+  uint home = path % (launch.window_width * launch.window_height);
+  int x = (int)(launch.window_x + home % launch.window_width);
+  int y = (int)(launch.window_y + home / launch.window_width);
+  if (!film_in_tile(launch, x, y)) return;
+  uint pixel = ((uint)y - launch.tile_y) * launch.tile_width + ((uint)x - launch.tile_x);
+  splat_word(splats + (size_t)pixel * SPLAT_WORDS + 6, diag, rays);
 }
 
 /// A splat counter as radiance.

@@ -2,17 +2,10 @@
 #ifndef PELLUCID_GEOM_TEXTURE_H
 #define PELLUCID_GEOM_TEXTURE_H
 
+#include "core/codes.h"
 #include "geom/scene_data.h"
 
 #if FEAT_TEXTURE
-
-/// Exact value of a half float that is not negative, infinite or NaN: 11 bits times powers of two,
-/// in arithmetic that every device has and that meets no subnormal float.
-INLINE real half_value(uint h) {
-  uint exponent = h >> 10, fraction = h & 0x3ffu;
-  uint digits = exponent ? fraction | 0x400u : fraction;
-  return (real)digits * (real)(1u << (exponent ? exponent : 1u)) * REAL(2.98023223876953125e-8);
-}
 
 INLINE real3 texel_at(PRIVATE const SceneData* scene, Texture t, int x, int y) {
   GLOBAL const uint* texel = scene->texels + (size_t)2 * (t.first + (uint)y * t.width + (uint)x);

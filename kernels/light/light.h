@@ -10,10 +10,14 @@
 
 /// One light sample as seen from a point.
 typedef struct LightSample {
-  real3 wi;         // unit, from the point to the light
-  real3 target;     // end of the shadow ray (offset from the light's surface), if not at infinity
-  real3 radiance;   // radiance; for delta lights irradiance on a plane facing the light
-  real pdf_w;       // [1/sr] pick included; delta lights: the probability of the pick
+  real3 wi;        // unit, from the point to the light
+  real3 target;    // end of the shadow ray (offset from the light's surface), if not at infinity
+  real3 radiance;  // radiance; for delta lights irradiance on a plane facing the light
+  real pdf_w;      // [1/sr] pick included; delta lights: the probability of the pick
+#if INTG_CONNECT
+  real emit;  // density with which a light walk starts along this edge, over that of this
+              // sample: [1/m^2], without the cosine at the point (light/emission.h)
+#endif
   uint aim;         // Ray.aim of the shadow ray
   int delta;        // point, spot or directional: cannot be found by chance
   int at_infinity;  // shadow ray goes on without end
@@ -70,10 +74,10 @@ INLINE real surface_light_area(PRIVATE const SceneData* scene, Light light) {
 }
 
 /// Density [1/sr, pick included] with which light_sample at p draws the direction wi that ended on
-/// surface s (an emitter).
-INLINE real light_pdf_surface(PRIVATE const SceneData* scene, PRIVATE const Surface* s, real3 p,
-                              real3 wi) {
-  Light light = scene->lights[s->light];
+/// point p_light, with normal ng, of the emitter `index`.
+INLINE real light_pdf_surface(PRIVATE const SceneData* scene, uint index, real3 p_light, real3 ng,
+                              real3 p, real3 wi) {
+  Light light = scene->lights[index];
 #if FEAT_LIGHT_SPHERE
   if (light.kind == LIGHT_SPHERE) {
     real sin2_max, one_minus_cos;
@@ -82,8 +86,8 @@ INLINE real light_pdf_surface(PRIVATE const SceneData* scene, PRIVATE const Surf
       return (real)light.prob_pick / (TWO_PI * one_minus_cos);
   }
 #endif
-  real3 to_light = s->p - p;
-  real cos_light = r_abs(dot3(s->ng, wi));
+  real3 to_light = p_light - p;
+  real cos_light = r_abs(dot3(ng, wi));
   return (real)light.prob_pick *
          area_to_solid_angle(dot3(to_light, to_light), cos_light, surface_light_area(scene, light));
 }
@@ -91,6 +95,22 @@ INLINE real light_pdf_surface(PRIVATE const SceneData* scene, PRIVATE const Surf
 /// Density of a direction that escaped to the environment.
 INLINE real light_pdf_environment(PRIVATE const SceneData* scene) {
   return (real)scene->lights[scene->info.environment].prob_pick * INV_FOUR_PI;
+}
+
+/// Density [1/(m^2 sr), pick included] of a light walk's start at a point of an emitter, over the
+/// cosine there: by area, and by the cosine over the sides that emit.
+INLINE real light_pdf_emit_surface(PRIVATE const SceneData* scene, uint index, uint flags) {
+  Light light = scene->lights[index];
+  uint both = SHAPE_EMIT_FRONT | SHAPE_EMIT_BACK;
+  real per_side = (flags & both) == both ? INV_TWO_PI : INV_PI;
+  return (real)light.prob_pick * per_side / surface_light_area(scene, light);
+}
+
+/// Density [1/m^2] of a point of the disc from which lights at infinity send their walks: as wide
+/// as the scene, facing the light.
+INLINE real light_pdf_disc(PRIVATE const SceneData* scene) {
+  real r = (real)scene->info.center_radius.w;
+  return INV_PI / (r * r);
 }
 
 /// Finishes a sample at a point of an emitting surface; pdf_w is set where the caller left it 0.
@@ -108,6 +128,9 @@ INLINE void sample_surface_point(PRIVATE const SceneData* scene, Light light, re
   if (out->pdf_w == REAL(0.0))
     out->pdf_w = (real)light.prob_pick *
                  area_to_solid_angle(d2, r_abs(cos_light), surface_light_area(scene, light));
+#if INTG_CONNECT
+  out->emit = light_pdf_emit_surface(scene, s->light, s->flags) / out->pdf_w;  // cosines cancel
+#endif
 }
 
 INLINE void sample_triangle_light(PRIVATE const SceneData* scene, Light light, real3 p, U4 words,
@@ -177,6 +200,14 @@ INLINE real spot_falloff(Light light, real3 w) {
   return t * t * (REAL(3.0) - REAL(2.0) * t);
 }
 
+/// Solid angle [sr] that a light without extent shines into, over 4 pi for points.
+INLINE real point_light_angle(Light light) {
+#if FEAT_LIGHT_SPOT
+  if (light.kind == LIGHT_SPOT) return TWO_PI * (real)light.axis.w;
+#endif
+  return FOUR_PI;
+}
+
 /// A light without extent: point or spot.
 INLINE void sample_point_light(Light light, real3 p, PRIVATE LightSample* out) {
   real3 d = load3(light.position) - p;
@@ -186,7 +217,22 @@ INLINE void sample_point_light(Light light, real3 p, PRIVATE LightSample* out) {
   out->target = load3(light.position);
   out->radiance = load3(light.value) * (REAL(1.0) / d2);
   out->pdf_w = (real)light.prob_pick;
+#if INTG_CONNECT
+  out->emit = REAL(1.0) / (point_light_angle(light) * d2);
+#endif
   out->delta = 1;
+}
+
+/// A light at infinity, in direction wi drawn with density pdf_w.
+INLINE void sample_infinite_light(PRIVATE const SceneData* scene, Light light, real3 wi, real pdf_w,
+                                  PRIVATE LightSample* out) {
+  out->wi = wi;
+  out->radiance = load3(light.value);
+  out->pdf_w = (real)light.prob_pick * pdf_w;
+#if INTG_CONNECT
+  out->emit = light_pdf_disc(scene);
+#endif
+  out->at_infinity = 1;
 }
 
 /// Samples one light from p: words x and w pick it, y and z its point. radiance = 0 where the
@@ -197,6 +243,9 @@ INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, U4 word
   out.target = p;
   out.radiance = REAL3(0.0f, 0.0f, 0.0f);
   out.pdf_w = REAL(0.0);
+#if INTG_CONNECT
+  out.emit = REAL(0.0);
+#endif
   out.aim = 0;
   out.delta = out.at_infinity = 0;
   if (scene->info.light_count == 0u) return out;
@@ -230,18 +279,14 @@ INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, U4 word
 #endif
 #if FEAT_LIGHT_DIRECTIONAL
     case LIGHT_DIRECTIONAL:
-      out.wi = -load3(light.position);
-      out.radiance = load3(light.value);
-      out.pdf_w = (real)light.prob_pick;
-      out.delta = out.at_infinity = 1;
+      sample_infinite_light(scene, light, -load3(light.position), REAL(1.0), &out);
+      out.delta = 1;
       break;
 #endif
 #if FEAT_LIGHT_ENVIRONMENT
     case LIGHT_ENVIRONMENT:
-      out.wi = warp_sphere(rng_unit(words.y), rng_unit(words.z));
-      out.radiance = load3(light.value);
-      out.pdf_w = (real)light.prob_pick * INV_FOUR_PI;
-      out.at_infinity = 1;
+      sample_infinite_light(scene, light, warp_sphere(rng_unit(words.y), rng_unit(words.z)),
+                            INV_FOUR_PI, &out);
       break;
 #endif
     default:

@@ -13,11 +13,12 @@ __kernel void film_add(FILM_PARAMS
   if (pixel >= launch.tile_width * launch.tile_height) return;
   F4 sample = samples[pixel];
 #if INTG_SPLAT
-  __global uint* word = splats + (size_t)pixel * 6;
+  __global uint* word = splats + (size_t)pixel * SPLAT_WORDS;
   sample.x += splat_value(word, launch.splat_scale);
   sample.y += splat_value(word + 2, launch.splat_scale);
   sample.z += splat_value(word + 4, launch.splat_scale);
-  for (int i = 0; i < 6; ++i) word[i] = 0u;
+  sample.w += (float)word[6];  // fewer than 2^24: exact
+  for (int i = 0; i < SPLAT_WORDS; ++i) word[i] = 0u;
 #endif
   film_accumulate(&film[pixel], diag, launch, sample);
 }

@@ -10,7 +10,8 @@ __kernel void pt_mega(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS DIAG_PARAMS const L
   if (pixel >= launch.tile_width * launch.tile_height) return;
   SCENE_FROM_PARAMS
   TileSample s = tile_sample(launch, camera, filter_table, pixel);
+  VertexStore store = vertex_store_at(0, 0, 0u);
   uint rays;
-  real3 radiance = path_radiance(&scene_data, launch, s.rng, s.ray, &rays);
+  real3 radiance = path_radiance(&scene_data, launch, s.rng, s.ray, 1.0f, &store, &rays);
   samples[pixel] = (float4)(radiance.x, radiance.y, radiance.z, (float)rays);
 }

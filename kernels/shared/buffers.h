@@ -23,16 +23,32 @@
   X(Light, lights, "lights with their alias table [lights]")
 
 // Read only, made once by pack: the pixel filter.
-#define FILTER_BUFFERS(X) \
-  X(float, filter_table, "offsets from the pixel's centre (camera/filter.h) [FILTER_STEPS + 1]")
+#define FILTER_BUFFERS(X)                                                                        \
+  X(float, filter_table, "offsets from the pixel's centre (camera/filter.h) [FILTER_STEPS + 1]") \
+  X(float, filter_values, "the filter from its centre to its radius [FILTER_STEPS + 1]")
 
 // Read and written by the passes of an iteration.
 #define FILM_BUFFERS(X)                                                        \
   X(F4, samples, "radiance of this iteration, w: rays traced for it [pixels]") \
   X(FilmPixel, film, "accumulators [pixels]")
 
+#define SPLAT_WORDS 8
 #define SPLAT_BUFFERS(X) \
-  X(uint, splats, "64-bit fixed point, low word first [pixels][3 channels][2 words]")
+  X(uint, splats, "64-bit whole numbers, low word first [pixels][r g b rays][2 words]")
+
+// Vertices of the sub-paths of a slice. Tracing puts them wherever the next slot is; what makes
+// them the same for any order of work is that they are read by path, in order, through the index.
+#define LIGHT_VERTEX_BUFFERS(X)                                                            \
+  X(F4, light_vertices, "PathVertex or CompactVertex [light capacity]")                    \
+  X(uint, light_last, "slot of each light path's last vertex, or NONE [paths of a slice]") \
+  X(uint, light_first, "their number; after vertex_scan the first's place [paths + 1]")    \
+  X(uint, light_order, "slots path by path, in order [light capacity]")
+#define EYE_VERTEX_BUFFERS(X)                                 \
+  X(F4, eye_vertices, "the same of eye paths [eye capacity]") \
+  X(uint, eye_last, "[pixels of a slice]")                    \
+  X(uint, eye_first, "[pixels of a slice + 1]")               \
+  X(uint, eye_order, "[eye capacity]")
+#define VERTEX_COUNT_BUFFERS(X) X(uint, vertex_counts, "slots asked for: light, eye [2]")
 
 #define AOV_BUFFERS(X) X(AovPixel, aovs, "what camera rays meet first [pixels]")
 

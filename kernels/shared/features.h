@@ -36,6 +36,8 @@
   X(INTG_MIS, "emission found by chance and by NEE, weighted together")          \
   X(INTG_UNIFORM, "directions drawn uniformly, without importance sampling")     \
   X(INTG_SPLAT, "contributions splatted to any pixel")                           \
+  X(INTG_CONNECT, "eye and light paths connected at every pair of vertices")     \
+  X(INTG_COMPACT, "path vertices in half the bytes")                             \
   X(INTG_SOBOL, "Owen-scrambled Sobol points instead of random numbers")         \
   X(INTG_FILTER, "a pixel filter that is not the box")
 

@@ -181,8 +181,44 @@ typedef struct Launch {
   int film_lsb;                  // exponent of the film's step: sums count multiples of 2^film_lsb
   uint block_ends;               // 1: this iteration completes its block
   uint pad0, pad1, pad2;
+  uint window_x, window_y;            // the rendered part of the picture: tiles are parts of it
+  uint window_width, window_height;   // pixels
+  uint slice_first, slice_count;      // pixels of the tile that passes over slices are about
+  uint light_paths;                   // of an iteration, for the whole picture
+  uint path_first, path_count;        // light paths that this launch traces
+  uint splat_first, splat_end;        // those of them that are splatted
+  uint store_first, store_end;        // those whose vertices are stored
+  uint light_capacity, eye_capacity;  // vertices that the buffers hold
+  uint gather_first;  // pixel of the tile from which on contributions count; those before are known
 } Launch;
-LAYOUT_CHECK(Launch, 64);
+LAYOUT_CHECK(Launch, 128);
+
+/// A vertex where a sub-path ends and others may connect. Written by light_trace and camera_trace.
+typedef struct PathVertex {
+  F4 p_offset;  // world units; w: Surface.offset
+  F4 ng_u;      // geometric normal; w: texture coordinate u
+  F4 ns_v;      // shading normal; w: v
+  F4 wo_dVCM;   // unit, to the vertex before
+  F4 beta_dVC;  // throughput up to here; of a light path: power [W]
+  uint material;
+  uint flags;   // SHAPE_*
+  uint depth;   // segments from the sub-path's start
+  uint before;  // slot of the stored vertex before, or NONE
+} PathVertex;
+LAYOUT_CHECK(PathVertex, 96);
+
+/// The same in half the bytes, for short memory (transport/stored_vertex.h).
+typedef struct CompactVertex {
+  float x, y, z;    // world units
+  uint material;    // low 19 bits; then SHAPE_* (5), exponent of Surface.offset, rounded up (8)
+  uint ng, ns, wo;  // octahedral, 2 x 16 bits
+  uint before;      // slot of the stored vertex before, or NONE
+  uint beta;        // three mantissas of 8 bits and, on top, an exponent of 8
+  uint dVCM;        // upper 24 bits of the float, rounded; then the low 8 bits of the depth
+  uint dVC;         // the same; then its high 8 bits
+  uint uv;          // texture coordinates as halfs
+} CompactVertex;
+LAYOUT_CHECK(CompactVertex, 48);
 
 #define FILM_SUM_WORDS 4
 #define FILM_SQUARE_WORDS 6

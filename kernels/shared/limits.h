@@ -38,6 +38,10 @@
 /// then sampled by area. Further in, 1 - sin^2 would keep fewer than 7 bits.
 #define SPHERE_NEAR 1.00001f
 
+/// Walks of lights at infinity start so many radii of the scene from its centre: far enough that
+/// rounding puts nothing of the scene behind the start.
+#define DISC_DISTANCE 1.001f
+
 /// Least cosine of a sampled facet normal, so that its tangent stays finite in float.
 #define FACET_COS_MIN 1e-7f
 
@@ -47,9 +51,15 @@
 /// Survival of roulette in the `reference` method, the same at every surface.
 #define REFERENCE_SURVIVE 0.9f
 
-/// Largest splat in fixed-point steps: 2^40, so that 2^24 of the largest fit into 64 bits. The step
-/// is Launch.splat_scale; light tracing will set it by the scene's power.
-#define SPLAT_FIXED_MAX 1099511627776.0f /* 2^40 */
+/// Most work-items of a group of vertex_scan.
+#define VERTEX_SCAN_GROUP 256
+
+/// Splats count steps of 2^-36 of what the lights' whole power gives a white surface at a distance
+/// of the scene's radius (PackedScene.splat_exponent): dim ones keep 8 bits down to 2^-28 of it.
+#define SPLAT_FRACTION_BITS 36
+/// Largest splat in those steps: 2^20 times that power; 2^8 of them fit into a pixel's 64 bits, and
+/// sums beyond are counted.
+#define SPLAT_FIXED_MAX 72057594037927936.0f /* 2^56 */
 
 /// Film sums count steps of 2^-56 of the brightest light (Launch.film_lsb), to which samples are
 /// rounded: they keep 24 bits down to 2^-32 of it, 8 bits down to 2^-48.

@@ -5,7 +5,7 @@
 // clang-format off
 #define LAYOUT_STRUCTS(X) \
   X(Triangle) X(Quadric) X(Shape) X(Material) X(Texture) X(Light) X(SceneInfo) X(Camera) X(Launch) X(FilmPixel) \
-  X(AovPixel)
+  X(AovPixel) X(PathVertex) X(CompactVertex)
 
 #define LAYOUT_FIELDS(X)                                                                  \
   X(Triangle, shape)                                                                      \
@@ -16,7 +16,10 @@
   X(Light, alias) X(Light, value) X(Light, position) X(Light, axis)                       \
   X(SceneInfo, center_radius) X(SceneInfo, root) X(SceneInfo, environment)                \
   X(Camera, corner) X(Camera, dx) X(Camera, dy) X(Camera, forward)                        \
-  X(Launch, tile_width) X(Launch, max_depth) X(Launch, splat_scale) X(Launch, film_lsb)                           \
+  X(Launch, tile_width) X(Launch, max_depth) X(Launch, splat_scale) X(Launch, film_lsb)       \
+  X(Launch, window_x) X(Launch, slice_first) X(Launch, path_count) X(Launch, store_end)   \
+  X(PathVertex, ng_u) X(PathVertex, ns_v) X(PathVertex, wo_dVCM) X(PathVertex, beta_dVC)  \
+  X(PathVertex, material) X(CompactVertex, ng) X(CompactVertex, beta)                     \
   X(FilmPixel, block) X(FilmPixel, square) X(FilmPixel, count)                           \
   X(AovPixel, normal) X(AovPixel, geometric) X(AovPixel, albedo) X(AovPixel, id)
 // clang-format on

@@ -108,6 +108,18 @@ INLINE BsdfEval material_eval(PRIVATE const SceneData* scene, Material m, BsdfCo
 #endif
 }
 
+/// Density [1/sr] with which sampling draws wo where a walk comes from wi: both local to wo's
+/// frame, which that walk has flipped if wi is on the other side.
+INLINE real material_pdf_reverse(PRIVATE const SceneData* scene, Material m, BsdfContext c,
+                                 PRIVATE const Surface* surface, real side, real3 wi) {
+  real flip = wi.z < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
+  BsdfContext back = c;
+  back.wo = REAL3(wi.x, wi.y, wi.z * flip);
+  back.eta = flip < REAL(0.0) ? REAL(1.0) / c.eta : c.eta;
+  real3 wo = REAL3(c.wo.x, c.wo.y, c.wo.z * flip);
+  return material_eval(scene, m, back, surface, side * flip, wo).pdf_w;
+}
+
 /// As bsdf_sample, for any material.
 INLINE BsdfSample material_sample(PRIVATE const SceneData* scene, Material m, BsdfContext c,
                                   PRIVATE const Surface* surface, real side, real lobe, real u,

@@ -14,6 +14,7 @@ typedef struct Vertex {
   Frame frame;          // shading frame flipped to the side of wo
   BsdfContext context;  // wo in that frame
   real side;            // +1: wo is in front of the geometric normal; -1: behind
+  real cos_wo;          // |wo . ng|
   int black;            // one-sided surface met from behind, or wo in a tangent plane
 } Vertex;
 
@@ -29,6 +30,7 @@ INLINE Vertex vertex_at(PRIVATE const SceneData* scene, Surface surface, real3 w
   real cos_g = dot3(surface.ng, wo);
   real cos_s = dot3(surface.ns, wo);
   v.side = cos_g > REAL(0.0) ? REAL(1.0) : REAL(-1.0);
+  v.cos_wo = r_abs(cos_g);
   v.frame = frame_from_normal(cos_s < REAL(0.0) ? -surface.ns : surface.ns);
   v.context.wo = to_local(v.frame, wo);
   v.context.importance = importance;
@@ -48,13 +50,30 @@ INLINE int vertex_sides_agree(PRIVATE const Vertex* v, real3 wi, real3 wi_local)
   return dot3(v->surface.ng, wi) * v->side * wi_local.z > REAL(0.0);
 }
 
-/// f and density for a world direction; 0 where the sides disagree.
+/// What f is multiplied by towards wi. Radiance: the cosine to the shading normal. Importance
+/// (walks from lights): shading normals are not symmetric, so its adjoint [Veach97 5.3.2], |wi.ng|
+/// |wo.ns| / |wo.ng|, without bound where wo grazes the geometry.
+INLINE real vertex_cosine(PRIVATE const Vertex* v, real3 wi, real3 wi_local) {
+#if FEAT_SMOOTH_NORMALS
+  if (v->context.importance) return r_abs(dot3(v->surface.ng, wi)) * v->context.wo.z / v->cos_wo;
+#endif
+  return r_abs(wi_local.z);
+}
+
+/// f and density for a world direction; 0 where the sides disagree. *cos_wi: see vertex_cosine.
 INLINE BsdfEval vertex_eval(PRIVATE const SceneData* scene, PRIVATE const Vertex* v, real3 wi,
                             PRIVATE real* cos_wi) {
   real3 wi_local = to_local(v->frame, wi);
-  *cos_wi = r_abs(wi_local.z);
+  *cos_wi = vertex_cosine(v, wi, wi_local);
   if (!vertex_sides_agree(v, wi, wi_local)) return bsdf_eval_none();
   return material_eval(scene, v->material, v->context, &v->surface, v->side, wi_local);
+}
+
+/// Density [1/sr] with which sampling, met from wi, draws wo; 0 where the sides disagree.
+INLINE real vertex_pdf_reverse(PRIVATE const SceneData* scene, PRIVATE const Vertex* v, real3 wi) {
+  real3 wi_local = to_local(v->frame, wi);
+  if (!vertex_sides_agree(v, wi, wi_local)) return REAL(0.0);
+  return material_pdf_reverse(scene, v->material, v->context, &v->surface, v->side, wi_local);
 }
 
 /// Draws a world direction by the BSDF. weight = 0 ends the walk.
@@ -65,6 +84,9 @@ INLINE BsdfSample vertex_sample(PRIVATE const SceneData* scene, PRIVATE const Ve
   if (is_black(s.weight)) return s;
   real3 wi = to_world(v->frame, s.wi);
   if (!vertex_sides_agree(v, wi, s.wi)) return bsdf_sample_none();
+#if FEAT_SMOOTH_NORMALS
+  if (v->context.importance) s.weight = s.weight * (vertex_cosine(v, wi, s.wi) / r_abs(s.wi.z));
+#endif
   s.wi = normalize3(wi);  // once per bounce, so that directions do not drift (numerics 33)
   return s;
 }

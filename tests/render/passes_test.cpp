@@ -92,13 +92,10 @@ TEST(Passes, a_crop_is_a_part_of_the_whole) {
 TEST(Passes, bands_are_a_matter_of_memory_only) {
   for (const Integrator& method : integrators()) {
     const Film whole = render(method, options_for({0, all_passes}));
-    const auto fixed = buffer_sizes(everything(), method, 0);
-    std::uint64_t bytes = 0;
-    for (const auto& [name, size] : fixed) bytes += size;
     RenderOptions o = options_for({0, all_passes});
-    o.memory = bytes + 5 * side * (sizeof(FilmPixel) + sizeof(F4));  // five rows at a time
-    const MemoryPlan plan =
-        plan_memory(test_device().info(), everything(), method, o.window(), o.memory, 0);
+    o.memory = 0;
+    for (const auto& [name, size] : buffer_sizes(everything(), method, o, 5)) *o.memory += size;
+    const MemoryPlan plan = plan_memory(test_device().info(), everything(), method, o);
     EXPECT_EQ(plan.tiles.size(), 5u);
     EXPECT_LE(plan.device_bytes(), *o.memory);
     EXPECT_TRUE(same_film(whole, render(method, o))) << method.name;
@@ -122,7 +119,9 @@ TEST(Passes, what_does_not_fit_is_refused_with_figures) {
   DeviceInfo small = test_device().info();
   small.max_buffer = 1 << 20;
   const PackedScene nothing = pack_scene(Scene(), {8});
-  const MemoryPlan plan = plan_memory(small, nothing, method, {0, 0, 1000, 1000}, {}, 0);
+  RenderOptions large;
+  large.width = large.height = 1000;
+  const MemoryPlan plan = plan_memory(small, nothing, method, large);
   for (const auto& [name, bytes] : plan.buffers) EXPECT_LE(bytes, small.max_buffer) << name;
   int rows = 0;
   for (const Window& tile : plan.tiles) {
@@ -130,7 +129,8 @@ TEST(Passes, what_does_not_fit_is_refused_with_figures) {
     rows += tile.height;
   }
   EXPECT_EQ(rows, 1000);
-  EXPECT_THROW(plan_memory(small, nothing, method, {0, 0, 30000, 1}, {}, 0), DeviceError);
+  large.width = 30000;
+  EXPECT_THROW(plan_memory(small, nothing, method, large), DeviceError);
 }
 
 }  // namespace

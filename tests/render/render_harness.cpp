@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "integrators/registry.h"
+#include "render/launch.h"
 #include "scene/load.h"
 #include "shared/limits.h"
 
@@ -30,8 +31,19 @@ PlanOptions plan_options(const Build& build) {
   o.sampler = build.sampler;
   o.group = build.group;
   o.simd_builtins = build.simd_builtins;
+  o.compact_vertices = build.compact_vertices;
+  o.vertices_per_path = build.vertices_per_path;
   // Mutation tests point this at a copy of kernels/ with a planted fault.
   if (const char* folder = std::getenv("PELLUCID_TEST_KERNELS")) o.kernel_dir = folder;
+  return o;
+}
+
+RenderOptions render_options(const Build& build) {
+  RenderOptions o;
+  o.width = build.width;
+  o.height = build.height;
+  if (build.light_paths) o.light_paths = build.light_paths;
+  o.plan = plan_options(build);
   return o;
 }
 
@@ -125,8 +137,9 @@ bool same_film(const Film& a, const Film& b) {
 Renderer::Renderer(const Scene& scene, const Build& build)
     : build_(build),
       packed_(pack(scene, build)),
-      plan_(test_device(), packed_, find_integrator(build.method), plan_options(build),
-            std::size_t(build.width) * std::size_t(build.height)) {}
+      plan_(test_device(), packed_, find_integrator(build.method), render_options(build),
+            plan_memory(test_device().info(), packed_, find_integrator(build.method),
+                        render_options(build))) {}
 
 void Renderer::check_counters() {
   std::vector<Counter> counters = make_counters();
@@ -136,13 +149,11 @@ void Renderer::check_counters() {
 
 Picture Renderer::render(const Sampling& run) {
   constexpr std::uint64_t queue_length = 1024;
-  Launch launch{};
-  launch.width = launch.tile_width = uint(build_.width);
-  launch.height = launch.tile_height = uint(build_.height);
+  Launch launch = make_launch(packed_, build_.width, build_.height,
+                              {0, 0, build_.width, build_.height}, build_.light_paths);
   launch.seed = uint(run.seed) * 2654435769u + 12345u;  // any spread will do
   launch.max_depth = run.max_depth.value_or(NONE);
   launch.mis = run.mis;
-  launch.film_lsb = packed_.brightness_exponent - FILM_FRACTION_BITS;
   const std::uint64_t block = plan_.specialisation().features.has(INTG_SOBOL) ? SOBOL_BLOCK : 1u;
   Film film(build_.width, build_.height, {0, 0, build_.width, build_.height}, launch.film_lsb,
             block);
@@ -178,14 +189,11 @@ std::uint64_t Renderer::spp_for(const Sampling& run, double relative, std::uint6
 Picture session_render(const Scene& scene, const Build& build, const Sampling& run,
                        const RenderHooks& hooks) {
   const PackedScene packed = pack(scene, build);
-  RenderOptions o;
-  o.width = build.width;
-  o.height = build.height;
+  RenderOptions o = render_options(build);
   o.passes = PassRange{0, run.spp};
   o.seed = run.seed;
   o.max_depth = run.max_depth;
   o.mis = run.mis;
-  o.plan = plan_options(build);
   Session session(test_device(), packed, find_integrator(build.method), o);
   session.run(hooks);
   expect_no_errors(session.counters());

@@ -35,6 +35,9 @@ struct Build {
   int simd_width = 0;                 ///< 0: what the device prefers
   Sampler sampler = Sampler::random;  ///< independent samples, as statistics want them
   PixelFilter filter = PixelFilter::box;
+  uint light_paths = 0;  ///< of an iteration; 0: one per pixel
+  bool compact_vertices = false;
+  double vertices_per_path = 4;  ///< room at first
 };
 
 /// Mean and variance of that mean.

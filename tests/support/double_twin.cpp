@@ -39,14 +39,15 @@ double ReferenceScene::light_pdf(const glm::dvec3& p, const glm::dvec3& w) const
     return state_->data.info.environment == NONE ? 0.0 : twin::light_pdf_environment(&state_->data);
   const twin::Surface s = twin::surface_at(&state_->data, ray, hit);
   if (twin::is_black(twin::light_emitted(&state_->data, &s, -ray.d))) return 0.0;
-  return twin::light_pdf_surface(&state_->data, &s, ray.o, ray.d);
+  return twin::light_pdf_surface(&state_->data, s.light, s.p, s.ng, ray.o, ray.d);
 }
 
 glm::dvec3 ReferenceScene::path(const Launch& launch, uint path_index, double x, double y,
                                 uint* rays) const {
   const twin::Rng rng{path_index, launch.iteration, launch.seed};
   const twin::Ray ray = twin::camera_ray(state_->packed.camera, x, y);
-  return to_dvec3(twin::path_radiance(&state_->data, launch, rng, ray, rays));
+  twin::VertexStore store = twin::vertex_store_at(nullptr, nullptr, 0);
+  return to_dvec3(twin::path_radiance(&state_->data, launch, rng, ray, 1.0, &store, rays));
 }
 
 }  // namespace pellucid::test

@@ -36,6 +36,8 @@ namespace TWIN_NAMESPACE {
 #include "camera/camera.h"
 #include "camera/filter.h"
 #include "film/film.h"
+#include "transport/connect.h"
+#include "transport/light_walk.h"
 #include "transport/path.h"
 
 constexpr bool is_float = sizeof(real) == sizeof(float);

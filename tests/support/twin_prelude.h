@@ -32,7 +32,13 @@
 #define INTG_NEE 1
 #define INTG_MIS 1
 #define INTG_UNIFORM 0
-#define INTG_SPLAT 0
+#ifdef TWIN_CONNECT  // of the walks of `bdpt` instead of those of `path`
+#define INTG_CONNECT 1
+#else
+#define INTG_CONNECT 0
+#endif
+#define INTG_SPLAT INTG_CONNECT
+#define INTG_COMPACT 0
 #ifndef INTG_SOBOL
 #define INTG_SOBOL 0
 #endif

@@ -174,7 +174,7 @@ TEST(TwinLight, DensityOfSampleIsDensityOfChance) {
         }
         const Surface at = surface_at(&twin.data, ray, hit);
         if (length3(at.p - s.target) > real(1e-3) * length3(s.target - ray.o)) continue;  // hidden
-        density = light_pdf_surface(&twin.data, &at, ray.o, ray.d);
+        density = light_pdf_surface(&twin.data, at.light, at.p, at.ng, ray.o, ray.d);
         cosine = r_abs(dot3(at.ng, ray.d));
         EXPECT_FALSE(is_black(light_emitted(&twin.data, &at, -ray.d)) && cosine > real(1e-3))
             << c.name;

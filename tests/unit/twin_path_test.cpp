@@ -45,7 +45,8 @@ Path one_path(const TwinScene& twin, const Launch& launch, uint pixel) {
   uint rays = 0;
   const Ray ray =
       camera_ray(twin.packed.camera, real(pixel % size) + u.x, real(pixel / size) + u.y);
-  return {double(path_radiance(&twin.data, launch, rng, ray, &rays).x), rays};
+  VertexStore store = vertex_store_at(nullptr, nullptr, 0);
+  return {double(path_radiance(&twin.data, launch, rng, ray, 1, &store, &rays).x), rays};
 }
 
 Moments mean_radiance(const Scene& scene, uint iterations, uint max_depth) {

@@ -1,0 +1,45 @@
+// Launches: sizes, and the steps in which films and splats count.
+#include "render/launch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shared/limits.h"
+
+namespace pellucid {
+namespace {
+
+/// Steps per unit of radiance. A light path brings about power / radius^2 times what the camera
+/// makes of it, D^2 / light paths; a power of two keeps scaled scenes exact.
+float splat_scale(const PackedScene& scene, uint light_paths) {
+  const double r = scene.info.center_radius.w > 0.0f ? scene.info.center_radius.w : 1.0;
+  const double distance = scene.camera.forward.w;
+  const double typical = scene.light_power / (r * r) * (distance * distance) / light_paths;
+  int exponent = 0;
+  if (typical > 0) std::frexp(typical, &exponent);
+  // The scale itself has to be a float.
+  return std::ldexp(1.0f, std::clamp(SPLAT_FRACTION_BITS - exponent, -126, 127));
+}
+
+}  // namespace
+
+Launch make_launch(const PackedScene& scene, int width, int height, const Window& window,
+                   uint light_paths) {
+  Launch launch{};
+  launch.width = uint(width), launch.height = uint(height);
+  launch.window_x = uint(window.x0), launch.window_y = uint(window.y0);
+  launch.window_width = uint(window.width), launch.window_height = uint(window.height);
+  set_tile(launch, window);
+  launch.light_paths = light_paths ? light_paths : launch.width * launch.height;
+  launch.max_depth = NONE;
+  launch.film_lsb = scene.brightness_exponent - FILM_FRACTION_BITS;
+  launch.splat_scale = splat_scale(scene, launch.light_paths);
+  return launch;
+}
+
+void set_tile(Launch& launch, const Window& tile) {
+  launch.tile_x = uint(tile.x0), launch.tile_y = uint(tile.y0);
+  launch.tile_width = uint(tile.width), launch.tile_height = uint(tile.height);
+}
+
+}  // namespace pellucid

@@ -1,0 +1,35 @@
+// connect: joins every vertex of a pixel's eye path with every vertex of the light path paired with
+// it. Reads: scene, light and eye vertices with their order. Writes: samples [pixels of the tile]
+// (adds), diag. Domain: pixels of the slice. Atomics: diag only. Next: film_add. Flags:
+// INTG_COMPACT.
+#include "passes/bundles.h"
+#include "transport/connect.h"
+
+__kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARAMS
+                          DIAG_PARAMS const Launch launch) {
+  uint index = (uint)get_global_id(0);
+  if (index >= launch.slice_count) return;
+  SCENE_FROM_PARAMS
+  uint pixel = launch.slice_first + index;
+  uint column = launch.tile_x + pixel % launch.tile_width;
+  uint row = launch.tile_y + pixel / launch.tile_width;
+  uint path = paired_light_path(launch, row * launch.width + column) - launch.path_first;
+  uint light_end = light_first[path + 1u];
+  real3 sum = (float3)(0.0f);
+  uint rays = 0u;
+  for (uint i = eye_first[index]; i < eye_first[index + 1u]; ++i) {
+    __global const StoredVertex* eye_at = (__global const StoredVertex*)eye_vertices;
+    EndVertex eye = vertex_unpack(&scene_data, eye_at[eye_order[i]], 0);
+    for (uint j = light_first[path]; j < light_end; ++j) {
+      __global const StoredVertex* light_at = (__global const StoredVertex*)light_vertices;
+      EndVertex light = vertex_unpack(&scene_data, light_at[light_order[j]], 1);
+      if (eye.depth + light.depth + 1u > launch.max_depth) break;
+      Connection link;
+      if (!connect_vertices(&scene_data, launch, &eye, &light, &link)) continue;
+      ++rays;
+      if (bvh_trace(&scene_data, link.ray, 1).prim != NONE) continue;
+      sum += link.value * link.weight;
+    }
+  }
+  samples[pixel] += (float4)(sum, (float)rays);
+}

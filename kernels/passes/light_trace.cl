@@ -1,0 +1,75 @@
+// light_trace: walks from the lights. Each vertex with a spread lobe is splatted to the pixel that
+// sees it, and stored for connections. Reads: scene, filter. Writes: splats [pixels of the tile],
+// light_vertices, light_last, light_first (their number) [paths of the launch], vertex_counts,
+// diag. Domain: light paths of the launch. Atomics: splats, vertex_counts, diag. Next: vertex_scan,
+// or film_add. Flags: INTG_CONNECT, INTG_COMPACT, INTG_SOBOL, INTG_FILTER.
+#include "film/film.h"
+#include "passes/bundles.h"
+#include "transport/light_walk.h"
+#include "transport/stored_vertex.h"
+
+/// The vertex as the camera sees it.
+INLINE void splat_vertex(PRIVATE const SceneData* scene, Launch launch, Camera camera,
+                         __global const float* filter_table, __global const float* filter_values,
+                         __global uint* splats, Rng rng, PRIVATE LightWalk* w,
+                         PRIVATE const Vertex* v) {
+  CameraLink link;
+  if (!camera_link(scene, launch, camera, w, v, &link)) return;
+  int x, y;
+  real weight = 1.0f;
+#if INTG_FILTER
+  real weight_y;
+  Random4 u = rng4(rng, DIM_LIGHT_WALK_SPLAT(w->depth));
+  x = filter_pixel(filter_table, filter_values, link.at.x, u.x, &weight);
+  y = filter_pixel(filter_table, filter_values, link.at.y, u.y, &weight_y);
+  weight *= weight_y;
+#else
+  x = (int)floor(link.at.x);
+  y = (int)floor(link.at.y);
+#endif
+  if (!film_in_tile(launch, x, y)) return;
+  ++w->walk.rays;
+  if (bvh_trace(scene, link.ray, 1).prim != NONE) return;
+  real3 value = link.value * (link.weight * weight);
+  film_splat(splats, scene->diag, launch, x, y, value.x, value.y, value.z);
+}
+
+__kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
+#if INTG_CONNECT
+                              LIGHT_VERTEX_PARAMS VERTEX_COUNT_PARAMS
+#endif
+                                  DIAG_PARAMS const Launch launch) {
+  uint index = (uint)get_global_id(0);
+  if (index >= launch.path_count) return;
+  SCENE_FROM_PARAMS
+  Rng rng;
+  rng.path = launch.path_first + index;
+  rng.iteration = launch.iteration;
+  rng.seed = launch.seed;
+  int splatted = rng.path >= launch.splat_first && rng.path < launch.splat_end;
+#if INTG_CONNECT
+  int stored = rng.path >= launch.store_first && rng.path < launch.store_end;
+  VertexStore store = vertex_store_at(light_vertices, &vertex_counts[0], launch.light_capacity);
+#endif
+  LightWalk w = light_walk_start(&scene_data, rng);
+  Vertex v;
+  uint limit = depth_limit(launch);
+  while (w.depth + 1u < limit && light_walk_next(&scene_data, &w, &v)) {
+    if (!bsdf_is_delta(v.material)) {
+      if (splatted)
+        splat_vertex(&scene_data, launch, camera, filter_table, filter_values, splats, rng, &w, &v);
+#if INTG_CONNECT
+      if (stored && w.depth + 2u <= launch.max_depth)
+        vertex_store(&store, &v, w.walk.beta, w.walk.partials, w.depth);
+#endif
+    }
+    if (w.depth + 1u == limit && launch.max_depth > limit) diag_count(&scene_data, DIAG_path_stuck);
+    if (!walk_scatter(&scene_data, launch, rng, DIM_LIGHT_WALK_BSDF(w.depth - 1u), &v, &w.walk))
+      break;
+  }
+#if INTG_CONNECT
+  light_last[index] = store.last;
+  light_first[index] = store.count;
+#endif
+  if (splatted) film_count_rays(splats, diag, launch, rng.path, w.walk.rays);
+}

@@ -1,0 +1,152 @@
+// Vertices of sub-paths in memory, from one pass to the next: whole, or in half the bytes.
+#ifndef PELLUCID_TRANSPORT_STORED_VERTEX_H
+#define PELLUCID_TRANSPORT_STORED_VERTEX_H
+
+#include "core/codes.h"
+#include "transport/partials.h"
+#include "transport/vertex.h"
+
+#if INTG_COMPACT
+typedef CompactVertex StoredVertex;
+#else
+typedef PathVertex StoredVertex;
+#endif
+
+/// Where a sub-path puts its vertices.
+typedef struct VertexStore {
+  GLOBAL StoredVertex* vertices;
+  GLOBAL uint* taken;  // slots asked for so far, by all work-items
+  uint capacity;       // slots there are: what comes later is counted and not written
+  uint last, count;    // of this sub-path: slot of its last vertex, and their number
+} VertexStore;
+
+INLINE VertexStore vertex_store_at(GLOBAL void* vertices, GLOBAL uint* taken, uint capacity) {
+  VertexStore store;
+  store.vertices = (GLOBAL StoredVertex*)vertices;
+  store.taken = taken;
+  store.capacity = capacity;
+  store.last = NONE;
+  store.count = 0u;
+  return store;
+}
+
+/// A vertex as it comes back from memory.
+typedef struct EndVertex {
+  Vertex v;
+  real3 beta;
+  Partials partials;
+  uint depth;
+} EndVertex;
+
+#if INTG_COMPACT
+INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q, uint depth) {
+  StoredVertex s;
+  s.x = (float)v->surface.p.x;
+  s.y = (float)v->surface.p.y;
+  s.z = (float)v->surface.p.z;
+  s.material = v->surface.material | (v->surface.flags << 19) |
+               (float_exponent_above((float)v->surface.offset) << 24);
+  s.ng = octahedral_pack(v->surface.ng);
+  s.ns = octahedral_pack(v->surface.ns);
+  s.wo = octahedral_pack(to_world(v->frame, v->context.wo));
+  s.beta = rgbe_pack(beta);
+  s.dVCM = float24_pack((float)q.dVCM) | (depth & 0xffu);
+  s.dVC = float24_pack((float)q.dVC) | (depth >> 8);
+#if FEAT_TEXTURE
+  s.uv = half_pack((float)v->surface.u) | (half_pack((float)v->surface.v) << 16);
+#else
+  s.uv = 0u;
+#endif
+  return s;
+}
+
+INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, int importance) {
+  EndVertex e;
+  Surface surface;
+  surface.p = REAL3(s.x, s.y, s.z);
+  surface.ng = octahedral_unpack(s.ng);
+  surface.ns = octahedral_unpack(s.ns);
+  surface.offset = (real)float_from_bits((s.material >> 24) << 23);
+  surface.material = s.material & 0x7ffffu;
+  surface.flags = (s.material >> 19) & 0x1fu;
+  surface.light = NONE;
+#if FEAT_TEXTURE
+  surface.u = (real)half_unpack(s.uv & 0xffffu);
+  surface.v = (real)half_unpack(s.uv >> 16);
+#endif
+  e.v = vertex_at(scene, surface, octahedral_unpack(s.wo), importance);
+  e.beta = rgbe_unpack(s.beta);
+  e.partials.dVCM = (real)float_from_bits(s.dVCM & 0xffffff00u);
+  e.partials.dVC = (real)float_from_bits(s.dVC & 0xffffff00u);
+  e.depth = (s.dVCM & 0xffu) | ((s.dVC & 0xffu) << 8);
+  return e;
+}
+#else
+INLINE F4 to_f4(real3 v, real w) {
+  F4 f;
+  f.x = (float)v.x;
+  f.y = (float)v.y;
+  f.z = (float)v.z;
+  f.w = (float)w;
+  return f;
+}
+
+INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q, uint depth) {
+  StoredVertex s;
+  real tex_u = REAL(0.0), tex_v = REAL(0.0);
+#if FEAT_TEXTURE
+  tex_u = v->surface.u;
+  tex_v = v->surface.v;
+#endif
+  s.p_offset = to_f4(v->surface.p, v->surface.offset);
+  s.ng_u = to_f4(v->surface.ng, tex_u);
+  s.ns_v = to_f4(v->surface.ns, tex_v);
+  s.wo_dVCM = to_f4(to_world(v->frame, v->context.wo), q.dVCM);
+  s.beta_dVC = to_f4(beta, q.dVC);
+  s.material = v->surface.material;
+  s.flags = v->surface.flags;
+  s.depth = depth;
+  return s;
+}
+
+INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, int importance) {
+  EndVertex e;
+  Surface surface;
+  surface.p = load3(s.p_offset);
+  surface.offset = (real)s.p_offset.w;
+  surface.ng = load3(s.ng_u);
+  surface.ns = load3(s.ns_v);
+  surface.material = s.material;
+  surface.flags = s.flags;
+  surface.light = NONE;
+#if FEAT_TEXTURE
+  surface.u = (real)s.ng_u.w;
+  surface.v = (real)s.ns_v.w;
+#endif
+  e.v = vertex_at(scene, surface, load3(s.wo_dVCM), importance);
+  e.beta = load3(s.beta_dVC);
+  e.partials.dVCM = (real)s.wo_dVCM.w;
+  e.partials.dVC = (real)s.beta_dVC.w;
+  e.depth = s.depth;
+  return e;
+}
+#endif
+
+/// Appends a vertex to the sub-path. Which slot it gets depends on the order of work; which place
+/// in its path does not.
+INLINE void vertex_store(PRIVATE VertexStore* store, PRIVATE const Vertex* v, real3 beta,
+                         Partials partials, uint depth) {
+#if PELLUCID_DEVICE
+  uint slot = atomic_inc(store->taken);
+#else
+  uint slot = (*store->taken)++;
+#endif
+  if (slot >= store->capacity) return;
+  StoredVertex s = vertex_pack(v, beta, partials, depth);
+  s.before = store->last;
+  store->vertices[slot] = s;
+  store->last = slot;
+  ++store->count;
+}
+
+#endif

@@ -1,0 +1,101 @@
+// A walk between two surfaces, from the camera or from a light: its state, how it scatters, and the
+// rays that connect its vertices to other points.
+#ifndef PELLUCID_TRANSPORT_WALK_H
+#define PELLUCID_TRANSPORT_WALK_H
+
+#include "core/rng.h"
+#include "transport/partials.h"
+#include "transport/vertex.h"
+
+/// Emitters seen directly or through delta surfaces alone: what light tracing leaves to the camera.
+#define INTG_SEEN (INTG_SPLAT && !INTG_CONNECT)
+
+typedef struct Walk {
+  Ray ray;
+  real3 beta;      // throughput; from a light: power [W]
+  real3 radiance;  // gathered so far
+  real3 p_prev;    // last vertex
+  real pdf_w;  // density of ray.d by the walk, survival included; 0 after delta or at the camera
+#if INTG_CONNECT
+  Partials partials;
+#endif
+  uint rays;
+} Walk;
+
+INLINE Walk walk_start(Ray ray, real3 beta) {
+  Walk walk;
+  walk.ray = ray;
+  walk.beta = beta;
+  walk.radiance = REAL3(0.0f, 0.0f, 0.0f);
+  walk.p_prev = ray.o;
+  walk.pdf_w = REAL(0.0);
+#if INTG_CONNECT
+  walk.partials.dVCM = walk.partials.dVC = REAL(0.0);
+#endif
+  walk.rays = 0;
+  return walk;
+}
+
+/// Most segments of a path, and of each of its sub-paths.
+INLINE uint depth_limit(Launch launch) {
+  return launch.max_depth < DEPTH_HARD_LIMIT ? launch.max_depth : DEPTH_HARD_LIMIT;
+}
+
+/// Scatters at the vertex: roulette by the material's own survival probability (local, so that a
+/// walk from the other end knows it too), then a direction by the numbers of `dimension`. 0 ends
+/// the walk.
+INLINE int walk_scatter(PRIVATE const SceneData* scene, Launch launch, Rng rng, uint dimension,
+                        PRIVATE const Vertex* v, PRIVATE Walk* walk) {
+  Random4 u = rng4(rng, dimension);
+#if INTG_UNIFORM
+  real survive = (real)REFERENCE_SURVIVE;
+#else
+  real survive = (real)v->material.survive;
+#endif
+  if (u.w >= survive) return 0;
+#if INTG_UNIFORM
+  BsdfSample s = vertex_sample_uniform(scene, v, u.x, u.y, u.z);
+#else
+  BsdfSample s = vertex_sample(scene, v, u.x, u.y, u.z);
+#endif
+  if (is_black(s.weight)) return 0;
+  walk->beta *= s.weight * (REAL(1.0) / survive);
+  walk->pdf_w = s.delta ? REAL(0.0) : s.pdf_w * survive;
+#if INTG_CONNECT
+  real cos_g = r_abs(dot3(v->surface.ng, s.wi));
+  if (s.delta) {
+    partials_scatter_delta(&walk->partials, s.reverse, cos_g);
+  } else {
+    real reverse = vertex_pdf_reverse(scene, v, s.wi) * survive;
+    partials_scatter(launch.mis, &walk->partials, walk->pdf_w, reverse, cos_g);
+  }
+#endif
+  walk->p_prev = v->surface.p;
+  walk->ray.o = spawn_origin(v->surface.p, v->surface.ng, v->surface.offset, s.wi);
+  walk->ray.d = s.wi;
+  return 1;
+}
+
+#if INTG_CONNECT
+/// The walk has come to the vertex.
+INLINE void walk_arrive(PRIVATE const Vertex* v, PRIVATE Walk* walk) {
+  real3 d = v->surface.p - walk->p_prev;
+  partials_arrive(&walk->partials, dot3(d, d), v->cos_wo);
+}
+#endif
+
+/// Ray from the surface towards `target`, a point that already clears what it lies on, along about
+/// `wi`. 0: it would have no length.
+INLINE int shadow_ray(PRIVATE const Surface* s, real3 wi, real3 target, PRIVATE Ray* ray) {
+  *ray = make_ray(spawn_origin(s->p, s->ng, s->offset, wi), wi, REAL_MAX);
+  real3 d = target - ray->o;
+  real dist2 = dot3(d, d);
+  if (!(dist2 > REAL(0.0))) return 0;
+  real dist = r_sqrt(dist2);
+  ray->d = d * (REAL(1.0) / dist);
+  // The target does not lie on what it clears; 4 roundoffs keep the length itself from crossing it.
+  ray->t_max = dist * (REAL(1.0) - (real)(4.0f * UNIT_ROUNDOFF));
+  return 1;
+}
+
+#endif
