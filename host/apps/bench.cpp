@@ -2,6 +2,8 @@
 // device.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "apps/bench_report.h"
@@ -12,6 +14,7 @@
 #include "base/files.h"
 #include "base/log.h"
 #include "base/text.h"
+#include "bench/method_bench.h"
 #include "bench/ray_bench.h"
 #include "bench/sampler_bench.h"
 #include "integrators/registry.h"
@@ -21,6 +24,7 @@ namespace {
 
 struct BenchCommand {
   std::string only = "rays", baseline, fail_slower = "10%", kernel_dir;
+  std::vector<std::string> scenes_asked;
   DeviceFlags device;
   int repeats = 7;
 
@@ -29,6 +33,7 @@ struct BenchCommand {
  private:
   ExitCode run_rays(const CommonOptions& common) const;
   ExitCode run_sampler(const CommonOptions& common) const;
+  ExitCode run_methods(const CommonOptions& common) const;
 };
 
 /// Cells slower than in the baseline by more than `allowed` (a fraction), or absent there; empty:
@@ -76,9 +81,9 @@ nlohmann::json read_baseline(const std::string& file) {
   return document;
 }
 
-std::vector<Scene> open_scenes(const std::vector<const char*>& names) {
+std::vector<Scene> open_scenes(const std::vector<std::string>& names) {
   std::vector<Scene> scenes;
-  for (const char* name : names) scenes.push_back(open_scene(name));
+  for (const std::string& name : names) scenes.push_back(open_scene(name));
   return scenes;
 }
 
@@ -105,7 +110,6 @@ ExitCode BenchCommand::run_rays(const CommonOptions& common) const {
 }
 
 ExitCode BenchCommand::run_sampler(const CommonOptions& common) const {
-  if (!baseline.empty()) throw UsageError("--baseline is for --only rays");
   std::vector<Scene> scenes =
       open_scenes({"cornell-box", "four-balls-point", "four-balls-background", "veach-mis"});
   const Device target = device.open();
@@ -121,11 +125,38 @@ ExitCode BenchCommand::run_sampler(const CommonOptions& common) const {
   return ExitCode::done;
 }
 
+ExitCode BenchCommand::run_methods(const CommonOptions& common) const {
+  std::vector<std::string> names{"cornell-box",      "four-balls-ceiling",    "four-balls-sun",
+                                 "four-balls-point", "four-balls-background", "veach-mis",
+                                 "glass-caustic",    "hidden-light-room",     "keyhole"};
+  if (!scenes_asked.empty()) names = scenes_asked;
+  std::vector<Scene> scenes = open_scenes(names);
+  std::vector<const Integrator*> methods;
+  for (const char* name : {"path", "naive", "nee", "light", "bdpt"})
+    methods.push_back(&find_integrator(name));
+  const Device target = device.open();
+  Progress progress("bench");
+  MethodBenchOptions options;
+  options.repeats = repeats;
+  options.plan.kernel_dir = kernel_dir;
+  options.progress = [&](const std::string& text) { progress.update(text); };
+  const nlohmann::json document = methods_document(
+      bench_methods(target, std::move(scenes), methods, find_integrator("bdpt"), options),
+      target.info());
+  if (common.wants_text()) print_result(methods_text(document));
+  write_json(common.json, document);
+  return ExitCode::done;
+}
+
 ExitCode BenchCommand::run(const CommonOptions& common) const {
+  const std::vector<std::string> workloads{"rays", "render", "sampler"};
+  if (std::find(workloads.begin(), workloads.end(), only) == workloads.end())
+    throw UsageError("--only: there is no workload '" + only + "'; there are " + join(workloads) +
+                     "." + did_you_mean(only, workloads));
+  if (!scenes_asked.empty() && only != "render") throw UsageError("--scene is for --only render");
+  if (!baseline.empty() && only != "rays") throw UsageError("--baseline is for --only rays");
   if (only == "rays") return run_rays(common);
-  if (only == "sampler") return run_sampler(common);
-  throw UsageError("--only: there is no workload '" + only + "'; there are rays, sampler." +
-                   did_you_mean(only, {"rays", "sampler"}));
+  return only == "render" ? run_methods(common) : run_sampler(common);
 }
 
 }  // namespace
@@ -133,8 +164,13 @@ ExitCode BenchCommand::run(const CommonOptions& common) const {
 CommandRun setup_bench(CLI::App& app) {
   auto c = std::make_shared<BenchCommand>();
   app.add_option("--only", c->only,
-                 "which workload: rays (default), or sampler: what Sobol points are worth")
-      ->type_name("rays|sampler");
+                 "which workload: rays (default); render: every method on every kind of scene; "
+                 "sampler: what Sobol points are worth")
+      ->type_name("rays|render|sampler");
+  app.add_option("--scene", c->scenes_asked,
+                 "with --only render: this scene instead of the workload's; repeatable")
+      ->type_name("SCENE")
+      ->allow_extra_args(false);
   c->device.declare(app);
   c->device.declare_threads(app);
   app.add_option("--repeats", c->repeats, "runs of each cell, for sampler seeds (default 7)")

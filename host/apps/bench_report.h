@@ -8,11 +8,15 @@
 namespace pellucid {
 
 struct DeviceInfo;
+struct MethodCell;
 struct RayBench;
 struct SamplerCell;
 
 nlohmann::json rays_document(const RayBench& bench, const DeviceInfo& device);
 std::string rays_text(const nlohmann::json& document);
+
+nlohmann::json methods_document(const std::vector<MethodCell>& cells, const DeviceInfo& device);
+std::string methods_text(const nlohmann::json& document);
 
 nlohmann::json sampler_document(const std::vector<SamplerCell>& cells, const DeviceInfo& device);
 std::string sampler_text(const nlohmann::json& document);

@@ -1,0 +1,53 @@
+// Runs on one scene, and their error.
+#include "bench/bench_scene.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace pellucid {
+
+BenchScene::BenchScene(const Device& device, Scene scene, int size, const PlanOptions& plan)
+    : device_(device),
+      scene_(std::move(scene)),
+      size_(size),
+      plan_(plan),
+      clock_{device.info().cpu, int(std::max(1u, std::thread::hardware_concurrency()))} {
+  scene_.settings.width = scene_.settings.height = size;
+  scene_.settings.filter = PixelFilter::box;
+  packed_ = pack_scene(scene_, {simd_width_for(device.info())});
+}
+
+BenchRun BenchScene::render(const Integrator& method, Sampler sampler, std::uint64_t spp,
+                            std::uint64_t seed) const {
+  RenderOptions o;
+  o.width = o.height = size_;
+  o.passes = PassRange{0, spp};
+  o.seed = seed;
+  if (scene_.settings.max_depth) o.max_depth = uint(*scene_.settings.max_depth);
+  o.plan = plan_;
+  o.plan.sampler = sampler;
+  Session session(device_, packed_, method, o);
+  BenchRun run;
+  run.seconds = clock_([&] {
+    session.run({});
+    return session.render_seconds();
+  });
+  const FilmSummary summary = summarise(session.film());
+  run.rgb = film_image(session.film(), false, false).data;
+  run.relmse_estimate = summary.relmse;
+  run.rays = summary.rays;
+  return run;
+}
+
+double relmse_to(const BenchRun& reference, const BenchRun& run) {
+  const double n = double(reference.rgb.size());
+  double mean = 0, sum = 0;
+  for (float v : reference.rgb) mean += v / n;
+  for (std::size_t i = 0; i < reference.rgb.size(); ++i) {
+    const double expected = reference.rgb[i], d = double(run.rgb[i]) - expected;
+    sum += d * d / (expected * expected + 1e-4 * mean * mean) / n;
+  }
+  return sum - reference.relmse_estimate;
+}
+
+}  // namespace pellucid

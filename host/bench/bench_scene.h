@@ -1,0 +1,41 @@
+// A scene made ready to be rendered again and again, with error and time of every run.
+#pragma once
+
+#include <vector>
+
+#include "bench/clock.h"
+#include "render/session.h"
+
+namespace pellucid {
+
+struct BenchRun {
+  std::vector<float> rgb;
+  double relmse_estimate = 0;  ///< by the film itself
+  double seconds = 0;          ///< of all cores together
+  std::uint64_t rays = 0;
+};
+
+class BenchScene {
+ public:
+  /// Square pictures of `size` pixels a side. Pixels are boxes: the filter's own spread of values
+  /// is nobody's doing.
+  BenchScene(const Device& device, Scene scene, int size, const PlanOptions& plan);
+
+  BenchRun render(const Integrator& method, Sampler sampler, std::uint64_t spp,
+                  std::uint64_t seed) const;
+  const std::string& name() const { return scene_.name; }
+
+ private:
+  Device device_;
+  Scene scene_;
+  PackedScene packed_;
+  int size_;
+  PlanOptions plan_;
+  Clock clock_;
+};
+
+/// relMSE of a run against a reference (accuracy.md 2: e is 1 % of its mean), less the reference's
+/// own.
+double relmse_to(const BenchRun& reference, const BenchRun& run);
+
+}  // namespace pellucid
