@@ -8,7 +8,7 @@
 #include "apps/common.h"
 #include "apps/scene_report.h"
 #include "base/text.h"
-#include "integrators/reach.h"
+#include "integrators/registry.h"
 
 namespace pellucid {
 namespace {
@@ -45,7 +45,8 @@ nlohmann::json as_json(const RenderFacts& f, FeatureSet features, const MemoryPl
           {"memory_total", memory.device_bytes()},
           {"film_bytes", memory.film_bytes},
           {"tiles", memory.tiles.size()},
-          {"unreachable", unreachable_paths(*f.integrator, f.packed->features)},
+          {"unreachable", unreachable_paths(*f.integrator, f.optics())},
+          {"by_chance", chance_paths(*f.integrator, f.optics())},
           {"warnings", f.scene->warnings},
           {"outputs", outputs}};
 }
@@ -68,8 +69,10 @@ std::string as_text(const RenderFacts& f, FeatureSet features, const MemoryPlan&
       join(budget, " or "), f.device->spec(), f.device->name, f.device->platform_name,
       f.device->driver, features.describe(), join(kernels), memory_text(memory.buffers, *f.device));
   if (memory.tiles.size() > 1) text += fmt::format("  bands     {}\n", memory.tiles.size());
-  for (const std::string& what : unreachable_paths(*f.integrator, f.packed->features))
-    text += fmt::format("  unseen    {}\n", what);
+  for (const std::string& blind : blind_spots(*f.integrator, f.optics(), integrators()))
+    text += fmt::format("  unseen    {}\n", blind);
+  for (const std::string& what : chance_paths(*f.integrator, f.optics()))
+    text += fmt::format("  by chance {}: noisy if they are small\n", what);
   for (const std::string& name : outputs) text += fmt::format("  output    {}\n", name);
   return text;
 }

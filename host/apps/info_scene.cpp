@@ -40,11 +40,13 @@ struct SceneFacts {
 
 nlohmann::json methods_json(const SceneFacts& f) {
   nlohmann::json methods = nlohmann::json::object();
+  const SceneOptics optics = optics_of(f.packed, f.scene.settings.max_depth);
   for (const Integrator& method : integrators()) {
     nlohmann::json kernels = nlohmann::json::array();
     for (const Pass& pass : method.passes) kernels.push_back(pass.name);
     methods[method.name] = {{"can_render", true},
-                            {"unreachable", unreachable_paths(method, f.packed.features)},
+                            {"unreachable", unreachable_paths(method, optics)},
+                            {"by_chance", chance_paths(method, optics)},
                             {"kernels", kernels}};
   }
   return methods;
@@ -100,11 +102,13 @@ nlohmann::json scene_document(const SceneFacts& f) {
 std::string methods_text(const nlohmann::json& methods) {
   std::string text;
   for (const auto& [name, method] : methods.items()) {
-    text += fmt::format("  {:<10}kernels {}", name,
+    text += fmt::format("  {:<10}kernels {}\n", name,
                         join(method["kernels"].get<std::vector<std::string>>()));
     for (const auto& what : method["unreachable"])
-      text += fmt::format("; cannot see {}", what.get<std::string>());
-    text += "\n";
+      text += fmt::format("            cannot see {}\n", what.get<std::string>());
+    for (const auto& what : method["by_chance"])
+      text += fmt::format("            by chance alone, noisy if they are small: {}\n",
+                          what.get<std::string>());
   }
   return text;
 }

@@ -18,7 +18,6 @@
 #include "base/signals.h"
 #include "base/text.h"
 #include "base/timer.h"
-#include "integrators/reach.h"
 #include "integrators/registry.h"
 #include "render/aov.h"
 
@@ -36,7 +35,7 @@ class RenderJob {
   void check_outputs() const;
   void prepare();
   std::optional<Film> resumed_film();
-  void render_aov_channels(const Device& target);
+  bool render_aov_channels(const Device& target);
   bool render(Session& session);
   void write(const Film& film, bool pictures);
   void write_pictures_of(const Film& film);
@@ -149,14 +148,22 @@ void RenderJob::write(const Film& film, bool pictures) {
 }
 
 /// What --aov asks of the AOV pass; before the render, so that the scene is on the device once.
-void RenderJob::render_aov_channels(const Device& target) {
-  if (flags_.aovs.empty()) return;
+/// False if stopped early.
+bool RenderJob::render_aov_channels(const Device& target) {
+  if (flags_.aovs.empty()) return true;
   Progress progress("rendering AOVs");
   std::vector<Counter> counters = make_counters();
-  aovs_ = render_aovs(target, *facts_.packed, flags_.aovs, facts_.options, counters);
+  const auto stop = [&] {
+    stop_.reinstall();  // the kernel may have been built by the launch before
+    return stop_.stop_requested();
+  };
+  auto channels = render_aovs(target, *facts_.packed, flags_.aovs, facts_.options, counters, stop);
+  if (!channels) return false;
+  aovs_ = std::move(*channels);
   const std::string wrong = describe_counters(counters);
   if (flags_.strict && error_count(counters) > 0) throw NumericError("--strict: AOVs: " + wrong);
   if (!wrong.empty()) log_warn("device counters of the AOVs: {}", wrong);
+  return true;
 }
 
 /// Renders with progress and signals; false if stopped early. Writes the picture on SIGUSR1 and the
@@ -198,8 +205,9 @@ ExitCode RenderJob::finish(bool complete) {
   const std::string counters = describe_counters(f.session->counters());
   if (!counters.empty()) log_warn("device counters: {}", counters);
   if (!complete) log_warn("stopped early; what was rendered is written");
-  for (const std::string& what : unreachable_paths(*f.integrator, f.packed->features))
-    log_info("'{}' cannot see {}", f.integrator->name, what);
+  // No warning: nothing went wrong, and --strict takes none. It stays in the picture's evidence.
+  for (const std::string& blind : blind_spots(*f.integrator, f.optics(), integrators()))
+    log_info("{}", blind);
   nlohmann::json document = render_stats(f);
   document["outputs"] = names_;
   document["complete"] = complete;
@@ -237,7 +245,10 @@ ExitCode RenderJob::run() {
     return ExitCode::done;
   }
   facts_.seconds.bvh = phase.seconds();
-  render_aov_channels(target);
+  if (!render_aov_channels(target)) {
+    log_warn("stopped early, in the AOVs and before the first pass: nothing is written");
+    return ExitCode::stopped;
+  }
   if (earlier_) add_missing(aovs_, earlier_->facts.aovs);
   auto session = [&] {
     Progress progress("building kernels");

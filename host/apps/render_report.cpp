@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/scene_report.h"
+#include "base/text.h"
 #include "base/version.h"
 
 namespace pellucid {
@@ -81,6 +82,8 @@ Evidence lasting_evidence(const RenderFacts& f) {
   meta["pellucid:sceneHash"] = f.scene_hash;
   meta["pellucid:settings"] = settings_text(*f.scene, f.options);
   meta["pellucid:integrator"] = f.integrator->name;
+  const auto unreachable = unreachable_paths(*f.integrator, f.optics());
+  meta["pellucid:unreachable"] = unreachable.empty() ? "nothing" : join(unreachable, "; ");
   meta["pellucid:seed"] = std::to_string(f.options.seed);
   meta["pellucid:features"] = f.session->plan().specialisation().features.describe();
   meta["pellucid:floatMode"] = std::string("strict");
@@ -140,6 +143,7 @@ nlohmann::json render_stats(const RenderFacts& f) {
           {"passes", passes},
           {"features", feature_flags(f.session->plan().specialisation().features, all_features())},
           {"counters", counters},
+          {"unreachable", unreachable_paths(*f.integrator, f.optics())},
           {"memory_bytes", f.session->plan().memory()},
           {"film_bytes", f.session->memory().film_bytes},
           {"tiles", f.session->memory().tiles.size()},

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cl/device.h"
+#include "integrators/reach.h"
 #include "render/checkpoint.h"
 #include "render/session.h"
 #include "scene/scene.h"
@@ -27,6 +28,9 @@ struct RenderFacts {
   std::string scene_hash, kernels_hash;
   FilmSummary film;
   RenderSeconds seconds;
+
+  /// What decides which paths the method can see. Needs the scene packed.
+  SceneOptics optics() const { return optics_of(*packed, options.max_depth); }
 };
 
 /// Everything that changes what is rendered and is no matter of effort.

@@ -37,8 +37,9 @@ class AovPass {
  public:
   AovPass(Device device, const PackedScene& scene, const PlanOptions& options,
           const MemoryPlan& memory);
-  /// The accumulators of a tile after `iterations`.
-  std::vector<AovPixel> run(Launch launch, uint iterations);
+  /// The accumulators of a tile after `iterations`; nothing if `stop` said so.
+  std::optional<std::vector<AovPixel>> run(Launch launch, uint iterations,
+                                           const std::function<bool()>& stop);
   void collect(std::vector<Counter>& counters) {
     collect_counters(device_, buffers_.at("diag"), counters);
   }
@@ -73,13 +74,15 @@ AovPass::AovPass(Device device, const PackedScene& scene, const PlanOptions& opt
   }
 }
 
-std::vector<AovPixel> AovPass::run(Launch launch, uint iterations) {
+std::optional<std::vector<AovPixel>> AovPass::run(Launch launch, uint iterations,
+                                                  const std::function<bool()>& stop) {
   const std::size_t pixels = std::size_t(launch.tile_width) * launch.tile_height;
   for (launch.iteration = 0; launch.iteration < iterations; ++launch.iteration) {
     kernel_.set_bytes(launch_index_, &launch, sizeof launch);
     device_.launch(kernel_, pixels, group_, nullptr);
+    device_.finish();  // or all would be queued before anybody could say stop
+    if (stop && stop()) return std::nullopt;
   }
-  device_.finish();
   std::vector<AovPixel> tile(pixels);
   device_.read(buffers_.at("aovs"), tile.data(), pixels * sizeof(AovPixel));
   return tile;
@@ -139,9 +142,11 @@ const std::vector<AovInfo>& aov_table() {
   return table;
 }
 
-std::vector<AovChannel> render_aovs(Device device, const PackedScene& scene,
-                                    const std::vector<std::string>& names,
-                                    const RenderOptions& options, std::vector<Counter>& counters) {
+std::optional<std::vector<AovChannel>> render_aovs(Device device, const PackedScene& scene,
+                                                   const std::vector<std::string>& names,
+                                                   const RenderOptions& options,
+                                                   std::vector<Counter>& counters,
+                                                   const std::function<bool()>& stop) {
   const std::vector<AovInfo> asked = asked_for(names);
   std::vector<AovChannel> channels;
   for (const AovInfo& info : asked)
@@ -156,7 +161,9 @@ std::vector<AovChannel> render_aovs(Device device, const PackedScene& scene,
   launch.seed = hash_seed(options.seed);
   for (const Window& tile : memory.tiles) {  // bands of rows, from the top
     set_tile(launch, tile);
-    append_tile(asked, pass.run(launch, iterations), iterations, channels);
+    const auto pixels = pass.run(launch, iterations, stop);
+    if (!pixels) return std::nullopt;
+    append_tile(asked, *pixels, iterations, channels);
   }
   pass.collect(counters);
   return channels;

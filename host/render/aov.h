@@ -2,6 +2,8 @@
 // number of samples, so that they depend on scene, size, filter, sampler and seed alone.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,10 +29,13 @@ struct AovChannel {
 };
 
 /// Channels of the window for those of `names` that aov_table() has, each once; nothing is built or
-/// allocated if there are none. Adds what went wrong to `counters`. Throws DeviceError.
-std::vector<AovChannel> render_aovs(Device device, const PackedScene& scene,
-                                    const std::vector<std::string>& names,
-                                    const RenderOptions& options, std::vector<Counter>& counters);
+/// allocated if there are none. `stop` is polled after every iteration; nothing if it said so. Adds
+/// what went wrong to `counters`. Throws DeviceError.
+std::optional<std::vector<AovChannel>> render_aovs(Device device, const PackedScene& scene,
+                                                   const std::vector<std::string>& names,
+                                                   const RenderOptions& options,
+                                                   std::vector<Counter>& counters,
+                                                   const std::function<bool()>& stop = {});
 
 /// Appends channels of the image's size.
 void add_channels(Image& image, const std::vector<AovChannel>& channels);

@@ -249,7 +249,7 @@ def test_evidence():
     ours = ["samplesPerPixel", "worldToCamera", "worldToNDC"] + [
         "pellucid:" + word for word in ("version", "sceneHash", "settings", "seed", "passes",
                                         "features", "floatMode", "counters", "relmseEstimate",
-                                        "integrator")]
+                                        "integrator", "unreachable")]
     of_host = ["renderTimeSeconds", "pellucid:device", "pellucid:driver"]
     for key in ours + of_host:
         check(key in full, f"evidence has {key}", full)

@@ -69,6 +69,19 @@ def test_second_signal():
     check(not os.path.exists("long.exr"), "and writes nothing")
 
 
+def test_stop_in_aovs():
+    """Their pass takes 20 s of one core at this size; the render is not reached."""
+    expect(0, ["room.json", "--spp", "1", "--aov", "N", "-o", "small.exr"])  # builds the kernels
+    render = Terminal("room.json", "--spp", "1", "--size", "2048x2048", "--aov", "N",
+                      "--threads", "1", "-o", "aovs.exr", "--checkpoint", "aovs.ckpt")
+    render.wait_for("rendering AOVs [1-9]\\.")
+    render.signal(signal.SIGINT)
+    code, seconds = render.end()
+    check(code == 75 and seconds < 5, "stopped with 75", code, seconds, render.text)
+    check("before the first pass: nothing is written" in render.text, "and says so", render.text)
+    check(not os.path.exists("aovs.exr") and not os.path.exists("aovs.ckpt"), "nothing is there")
+
+
 def test_image_so_far():
     render = Terminal(*FOREVER, "-o", "sofar.exr")
     render.wait_for("path on 0:0.* pass")

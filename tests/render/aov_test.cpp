@@ -61,7 +61,7 @@ std::vector<AovChannel> make(const Scene& scene, const std::vector<std::string>&
   options.height = int(height);
   options.plan.extra_features = all_scene_features();
   std::vector<Counter> counters = make_counters();
-  auto channels = render_aovs(test_device(), packed, names, options, counters);
+  auto channels = render_aovs(test_device(), packed, names, options, counters).value();
   EXPECT_EQ(error_count(counters), 0u) << describe_counters(counters);
   return channels;
 }

@@ -71,12 +71,14 @@ TEST_P(ClosedForm, holds) {
                    (target.max_depth ? ", depth " + std::to_string(*target.max_depth) : ""));
       check_target(renderer, method, target, c.slack);
     }
-    EXPECT_TRUE(unreachable_paths(find_integrator(method), renderer.packed().features).empty());
+    EXPECT_TRUE(
+        unreachable_paths(find_integrator(method), optics_of(renderer.packed(), {})).empty());
   }
   for (const std::string& method : c.blind) {
     SCOPED_TRACE(method);
     Renderer renderer(c.scene, {method, c.size, c.size});
-    EXPECT_FALSE(unreachable_paths(find_integrator(method), renderer.packed().features).empty());
+    EXPECT_FALSE(
+        unreachable_paths(find_integrator(method), optics_of(renderer.packed(), {})).empty());
     for (const auto& pixel : renderer.render({}).pixels)
       for (const Estimate& e : pixel) ASSERT_EQ(e.mean, 0.0);
   }
