@@ -21,18 +21,10 @@ struct AovInfo {
 /// In the order in which channels are written.
 const std::vector<AovInfo>& aov_table();
 
-struct AovChannel {
-  std::string name;
-  std::vector<float> data;  ///< of the window, row by row
-};
-
 /// Channels of the window for those of `names` that aov_table() has, each once; nothing is built or
 /// allocated if there are none. Adds what went wrong to `counters`. Throws DeviceError.
 std::vector<AovChannel> render_aovs(Device device, const PackedScene& scene,
                                     const std::vector<std::string>& names,
                                     const RenderOptions& options, std::vector<Counter>& counters);
-
-/// Appends channels of the image's size.
-void add_channels(Image& image, const std::vector<AovChannel>& channels);
 
 }  // namespace pellucid
