@@ -125,14 +125,14 @@ bool can_draw(const std::string& text) {
 
 double row_exposure(const std::vector<float>& rgb) {
   constexpr double bright_part = 0.9, bright_value = 0.7;
-  std::vector<float> grey;
+  std::vector<float> peaks;
   for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
-    const float mean = (rgb[i] + rgb[i + 1] + rgb[i + 2]) / 3;
-    if (mean > 0) grey.push_back(mean);
+    const float peak = std::max({rgb[i], rgb[i + 1], rgb[i + 2]});
+    if (peak > 0) peaks.push_back(peak);
   }
-  if (grey.empty()) return 0;
-  const auto place = grey.begin() + std::ptrdiff_t(bright_part * double(grey.size() - 1));
-  std::nth_element(grey.begin(), place, grey.end());
+  if (peaks.empty()) return 0;
+  const auto place = peaks.begin() + std::ptrdiff_t(bright_part * double(peaks.size() - 1));
+  std::nth_element(peaks.begin(), place, peaks.end());
   return std::round(2 * std::log2(bright_value / double(*place))) / 2;
 }
 

@@ -25,7 +25,7 @@ Image draw_atlas(int width, int height, const std::vector<std::string>& rows,
                  const std::vector<AtlasCell>& cells);
 
 /// Half stops that bring the brighter parts of a picture close to white: the 90th percentile of
-/// what is not black to 0.7. 0 for black ones.
+/// the brightest channel of what is not black to 0.7. 0 for black ones.
 double row_exposure(const std::vector<float>& rgb);
 
 /// Whether the built-in font has every letter of a text.

@@ -73,7 +73,7 @@ std::string describe_layers(uint set) {
 }
 
 Layers::Layers(uint of, float steps, std::size_t pixels)
-    : set(of), scale(steps), words(pixels * layer_bytes(of) / sizeof(uint)) {}
+    : set(of), scale(of ? steps : 1.0f), words(pixels * layer_bytes(of) / sizeof(uint)) {}
 
 void Layers::merge(const Layers& other) {
   PELLUCID_CHECK(set == other.set && scale == other.scale && words.size() == other.words.size(),

@@ -39,7 +39,7 @@ class Layers {
   Layers(uint set, float scale, std::size_t pixels);
 
   uint set = 0;
-  float scale = 1;
+  float scale = 1;          ///< 1 without layers
   std::vector<uint> words;  ///< [pixels][layers][3 channels][2 words], low word first
 
   std::size_t words_per_pixel() const { return layer_count(set) * LAYER_WORDS; }
