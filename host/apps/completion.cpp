@@ -33,14 +33,16 @@ struct CommandWords {
   bool scenes = false;  ///< ... or shipped scenes
 };
 
-/// "srgb|filmic|none" as words; what is in capitals stands for something else.
+/// "srgb|filmic|none" as words; LIST and the like stand for something else.
 Words split_choices(const std::string& type) {
   Words words;
   for (std::size_t start = 0; start <= type.size();) {
     const std::size_t end = std::min(type.find('|', start), type.size());
     const std::string word = type.substr(start, end - start);
-    if (std::none_of(word.begin(), word.end(), [](unsigned char c) { return std::isupper(c); }))
-      words.push_back(word);
+    const bool stands_for =
+        word.size() > 1 &&
+        std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isupper(c); });
+    if (!stands_for) words.push_back(word);
     start = end + 1;
   }
   return words;

@@ -19,6 +19,7 @@ namespace {
 
 struct MergeFlags {
   std::vector<std::string> inputs, outputs, aovs;
+  std::string atlas;
   DisplayFlags display;
   bool deterministic = false;
 };
@@ -64,30 +65,46 @@ Image picture_of(const Checkpoint& c, const MergeFlags& flags) {
   return image;
 }
 
+void check_output(const std::string& option, const std::string& name,
+                  const std::vector<std::string>& others) {
+  for (const std::string& other : others)
+    if (same_file(name, other))
+      throw UsageError(
+          fmt::format("{} '{}' would overwrite '{}'; name another", option, name, other));
+  check_writable(name);
+}
+
 ExitCode merge(const MergeFlags& flags, const CommonOptions& common) {
   std::vector<std::string> pictures, checkpoints;
   for (const std::string& name : flags.outputs) {
     (names_checkpoint(name) ? checkpoints : pictures).push_back(name);
-    for (const std::string& input : flags.inputs)
-      if (same_file(name, input))
-        throw UsageError(fmt::format("-o '{}' would overwrite what is merged; name another", name));
-    check_writable(name);
+    check_output("-o", name, flags.inputs);
   }
   check_picture_types(pictures);
+  if (!flags.atlas.empty()) {
+    check_display_type("--atlas", flags.atlas);
+    check_output("--atlas", flags.atlas, flags.inputs);
+    check_output("--atlas", flags.atlas, flags.outputs);
+  }
   for (const std::string& aov : flags.aovs)
     if (aov != "variance" && aov != "samples")
       throw UsageError("--aov: there is no '" + aov +
                        "' to add; there are variance, samples, and what the checkpoints bring");
   const DisplayTransform display = flags.display.transform();
   Checkpoint all = merged(flags.inputs);
+  if (!flags.atlas.empty() && !(layer_kinds(all.film.layers.set) & LAYERS_TECH))
+    throw UsageError("--atlas: these checkpoints have no strategies; render with --aov tech");
   if (!pictures.empty()) warn_of_gaps(all.film.passes);
   for (const std::string& name : checkpoints) write_checkpoint(name, all.film, all.facts);
   if (!pictures.empty()) write_pictures(pictures, picture_of(all, flags), display);
+  if (!flags.atlas.empty()) write_image(flags.atlas, film_atlas(all.film));
   log_info("{} files, passes {}", flags.inputs.size(), all.film.passes.text());
+  std::vector<std::string> results = flags.outputs;
+  if (!flags.atlas.empty()) results.push_back(flags.atlas);
   if (common.wants_text())
-    for (const std::string& name : flags.outputs) print_result(name + "\n");
+    for (const std::string& name : results) print_result(name + "\n");
   write_json(common.json, {{"inputs", flags.inputs},
-                           {"outputs", flags.outputs},
+                           {"outputs", results},
                            {"passes", all.film.passes.text()},
                            {"spp", all.film.passes.count()}});
   return ExitCode::done;
@@ -109,6 +126,9 @@ CommandRun setup_merge(CLI::App& app) {
                  "pixel's mean), samples")
       ->type_name("LIST")
       ->delimiter(',');
+  app.add_option("--atlas", flags->atlas,
+                 "draw the pyramid of strategies, if the checkpoints have their layers")
+      ->type_name("FILE");
   flags->display.declare(app);
   app.add_flag("--deterministic", flags->deterministic,
                "leave time, host and device out of the image");

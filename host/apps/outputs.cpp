@@ -32,19 +32,27 @@ std::string suffix_of(const std::string& name) {
   return suffix;
 }
 
+void check_type(const std::string& option, const std::string& name,
+                const std::vector<std::string>& types) {
+  const std::string suffix = suffix_of(name);
+  if (contains(types, suffix)) return;
+  const std::string what = suffix.empty() ? "the suffix tells the type, but there is none"
+                           : contains(LINEAR_TYPES, suffix) ? "this is drawn for display"
+                                                            : "unknown type of picture";
+  throw UsageError(fmt::format("{} '{}': {}; there are {}.{}", option, name, what, join(types),
+                               did_you_mean(suffix, types)));
+}
+
 }  // namespace
 
 void check_picture_types(const std::vector<std::string>& names) {
   std::vector<std::string> types = LINEAR_TYPES;
   types.insert(types.end(), DISPLAY_TYPES.begin(), DISPLAY_TYPES.end());
-  for (const std::string& name : names) {
-    const std::string suffix = suffix_of(name);
-    if (contains(types, suffix)) continue;
-    const std::string what =
-        suffix.empty() ? "the suffix tells the type, but there is none" : "unknown type of picture";
-    throw UsageError(fmt::format("-o '{}': {}; there are {}.{}", name, what, join(types),
-                                 did_you_mean(suffix, types)));
-  }
+  for (const std::string& name : names) check_type("-o", name, types);
+}
+
+void check_display_type(const std::string& option, const std::string& name) {
+  check_type(option, name, DISPLAY_TYPES);
 }
 
 bool is_picture_name(const std::string& name) {

@@ -13,6 +13,9 @@ namespace pellucid {
 /// Throws UsageError if a suffix names no type of picture that we write.
 void check_picture_types(const std::vector<std::string>& names);
 
+/// Throws UsageError if the suffix names no type of display picture; `option` is for the message.
+void check_display_type(const std::string& option, const std::string& name);
+
 /// Whether the suffix is one of a picture, written by us or only read.
 bool is_picture_name(const std::string& name);
 

@@ -47,6 +47,7 @@ class RenderJob {
   Timer total_;
   StopSignal stop_;
   Scene scene_;
+  Integrator method_;  ///< with layers
   RenderFacts facts_;
   std::vector<std::string> names_;
   std::vector<AovChannel> aovs_;
@@ -58,6 +59,7 @@ class RenderJob {
 void RenderJob::check_outputs() const {
   std::vector<std::pair<std::string, std::string>> files;  // what it is, name
   for (const std::string& name : names_) files.emplace_back("-o", name);
+  files.emplace_back("--atlas", flags_.atlas);
   files.emplace_back("--checkpoint", flags_.checkpoint);
   files.emplace_back("--stats", flags_.stats);
   if (common_.json != "-") files.emplace_back("--json", common_.json);
@@ -82,7 +84,8 @@ void RenderJob::prepare() {
   scene_ = open_scene(flags_.scene, flags_.load_options());
   flags_.override_settings(scene_.settings);
   facts_.scene = &scene_;
-  facts_.integrator = &choose_integrator(flags_.integrator, scene_);
+  method_ = flags_.method(scene_);
+  facts_.integrator = &method_;
   facts_.options = flags_.options(scene_, *facts_.integrator);
   names_ = flags_.output_names(scene_);
   if (flags_.strict && !scene_.warnings.empty())
@@ -132,18 +135,23 @@ void RenderJob::write_checkpoint_of(const Film& film) {
                     facts_.seconds.render, aovs_});
 }
 
-/// Writes the checkpoint and, if wanted, the pictures; if one fails, the other is still written.
+/// Writes the checkpoint and, if wanted, the pictures; if one fails, the others are still written.
 void RenderJob::write(const Film& film, bool pictures) {
   if (pictures) facts_.film = summarise(film);
   facts_.seconds.render =
       facts_.session->render_seconds() + (earlier_ ? earlier_->facts.seconds : 0.0);
   std::exception_ptr first;
-  try {
-    if (!flags_.checkpoint.empty()) write_checkpoint_of(film);
-  } catch (const OutputError&) {
-    first = std::current_exception();
-  }
-  if (pictures) write_pictures_of(film);
+  const auto attempt = [&](const auto& step) {
+    try {
+      step();
+    } catch (const OutputError&) {
+      if (!first) first = std::current_exception();
+    }
+  };
+  if (!flags_.checkpoint.empty()) attempt([&] { write_checkpoint_of(film); });
+  if (pictures) attempt([&] { write_pictures_of(film); });
+  if (pictures && !flags_.atlas.empty())
+    attempt([&] { write_image(flags_.atlas, film_atlas(film)); });
   if (first) std::rethrow_exception(first);
 }
 
@@ -209,12 +217,12 @@ ExitCode RenderJob::finish(bool complete) {
   for (const std::string& blind : blind_spots(*f.integrator, f.optics(), integrators()))
     log_info("{}", blind);
   nlohmann::json document = render_stats(f);
-  document["outputs"] = names_;
+  document["outputs"] = flags_.results(names_);
   document["complete"] = complete;
   write_json(flags_.stats, document);
   write_json(common_.json, document);
   if (common_.wants_text())
-    for (const std::string& name : names_) print_result(name + "\n");
+    for (const std::string& name : flags_.results(names_)) print_result(name + "\n");
   if (flags_.strict && error_count(f.session->counters()) > 0)
     throw NumericError("--strict: " + counters);
   return complete ? ExitCode::done : ExitCode::stopped;
@@ -241,7 +249,7 @@ ExitCode RenderJob::run() {
   facts_.packed = &packed;
   if (flags_.dry_run) {
     image_library.get();
-    tell_plan(facts_, names_, common_);
+    tell_plan(facts_, flags_.results(names_), common_);
     return ExitCode::done;
   }
   facts_.seconds.bvh = phase.seconds();

@@ -78,17 +78,36 @@ void set_sub_paths(const RenderFlags& flags, const Integrator& method, RenderOpt
     throw UsageError("--vertices has no effect on '" + method.name + "', which stores none");
 }
 
-/// Everything that --aov takes: the film's own channels, then those of the AOV pass.
+struct AovEntry {
+  std::string name, doc;
+};
+/// Everything that --aov takes: the film's own channels, its layers, then what the AOV pass makes.
+std::vector<AovEntry> aov_entries() {
+  std::vector<AovEntry> entries{{"variance", "of each pixel's mean"}, {"samples", "per pixel"}};
+  for (const LayerInfo& info : layer_table()) entries.push_back({info.name, info.doc});
+  for (const AovInfo& info : aov_table()) entries.push_back({info.name, info.doc});
+  return entries;
+}
+
 std::vector<std::string> aov_names() {
-  std::vector<std::string> names{"variance", "samples"};
-  for (const AovInfo& info : aov_table()) names.push_back(info.name);
+  std::vector<std::string> names;
+  for (const AovEntry& entry : aov_entries()) names.push_back(entry.name);
   return names;
 }
 
 std::string aov_help() {
-  std::string text = "further EXR channels, by comma: variance (of each pixel's mean), samples";
-  for (const AovInfo& info : aov_table()) text += ", " + info.name + " (" + info.doc + ")";
-  return text;
+  std::vector<std::string> texts;
+  for (const AovEntry& entry : aov_entries())
+    texts.push_back(fmt::format("{} ({})", entry.name, entry.doc));
+  return "further EXR channels, by comma: " + join(texts);
+}
+
+/// Names of the methods that trace light from the lights.
+std::vector<std::string> light_tracers() {
+  std::vector<std::string> names;
+  for (const Integrator& method : integrators())
+    if (method.wishes.has(INTG_SPLAT)) names.push_back(method.name);
+  return names;
 }
 
 /// Method, effort and where samples lie.
@@ -140,6 +159,7 @@ void RenderFlags::declare(CLI::App& app) {
                  "else unlimited)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xfffffffe}));
   declare_files(app);
+  declare_progress(app);
   device.declare(app);
   device.declare_threads(app);
   app.add_option(
@@ -168,7 +188,19 @@ void RenderFlags::declare_files(CLI::App& app) {
          "picture to write, type by suffix; repeatable (default: SCENE.exr and SCENE.png here)")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  app.add_option("--aov", aovs, aov_help())->type_name("LIST")->delimiter(',');
+  app.add_option("--aov", aovs, aov_help())->type_name(join(aov_names(), "|"))->delimiter(',');
+  app.add_option("--aov-length", aov_length,
+                 "longest path length that has layers of its own in --aov length and tech and in "
+                 "--atlas (default 5); longer ones share one")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{LAYER_LENGTH_MAX}));
+  app.add_option("--atlas", atlas,
+                 "draw what every strategy brings, weighted and not, as a pyramid: rows by path "
+                 "length, columns by s; implies --aov tech")
+      ->type_name("FILE");
+  display.declare(app);
+}
+
+void RenderFlags::declare_progress(CLI::App& app) {
   app.add_option(
          "--checkpoint", checkpoint,
          "keep the render in this file, to go on with (--resume) or to merge; written at the "
@@ -182,7 +214,6 @@ void RenderFlags::declare_files(CLI::App& app) {
          "render the global passes A to B-1 only, so that several runs share the work of one "
          "(see `merge`); a pass is one sample per pixel")
       ->type_name("A:B");
-  display.declare(app);
 }
 
 LoadOptions RenderFlags::load_options() const {
@@ -197,6 +228,25 @@ void RenderFlags::override_settings(RenderSettings& settings) const {
     settings.filter = find_pixel_filter(one_of("--filter", filter, pixel_filter_names()));
 }
 
+uint RenderFlags::layer_kinds() const {
+  uint kinds = atlas.empty() ? 0 : LAYERS_TECH;
+  for (const LayerInfo& info : layer_table())
+    if (std::find(aovs.begin(), aovs.end(), info.name) != aovs.end()) kinds |= info.kind;
+  return kinds;
+}
+
+Integrator RenderFlags::method(const Scene& s) const {
+  constexpr uint default_length = 5;
+  const Integrator& plain = choose_integrator(integrator, s);
+  const uint kinds = layer_kinds();
+  if (kinds & LAYERS_VERTICES && !plain.wishes.has(INTG_SPLAT))
+    throw UsageError(
+        fmt::format("--aov light-vertices: '{}' makes no light vertices; {}", plain.name,
+                    light_tracers().empty() ? "no method here does"
+                                            : "methods that do: " + join(light_tracers())));
+  return with_layers(plain, kinds, aov_length ? uint(aov_length) : default_length);
+}
+
 RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) const {
   RenderOptions o;
   o.width = s.settings.width;
@@ -205,7 +255,9 @@ RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) con
   o.passes = pass_range(*this, s);
   if (!crop.empty()) o.crop = parse_crop("--crop", crop, o.width, o.height);
   if (!memory.empty()) o.memory = parse_bytes("--memory", memory);
-  if (!checkpoint.empty()) o.host_bytes = o.window().pixels() * checkpoint_bytes_per_pixel;
+  // Layers are copied twice on their way into a picture, too.
+  o.host_bytes = o.window().pixels() * ((checkpoint.empty() ? 0 : checkpoint_bytes_per_pixel) +
+                                        2 * layer_bytes(method.layers));
   o.seed = seed;
   if (max_depth) o.max_depth = uint(max_depth);
   if (!max_depth && s.settings.max_depth) o.max_depth = uint(*s.settings.max_depth);
@@ -224,6 +276,11 @@ std::vector<std::string> RenderFlags::output_names(const Scene& s) const {
   return outputs;
 }
 
+std::vector<std::string> RenderFlags::results(std::vector<std::string> pictures) const {
+  if (!atlas.empty()) pictures.push_back(atlas);
+  return pictures;
+}
+
 double RenderFlags::checkpoint_period() const {
   constexpr double default_period = 60.0;
   return every.empty() ? default_period : parse_duration("--every", every);
@@ -235,6 +292,9 @@ void RenderFlags::check() const {
   if (checkpoint.empty() && resume) throw UsageError("--resume needs --checkpoint FILE beside it");
   checkpoint_period();
   for (const std::string& aov : aovs) one_of("--aov", aov, aov_names());
+  if (aov_length && !(layer_kinds() & (LAYERS_LENGTH | LAYERS_TECH)))
+    throw UsageError("--aov-length needs --aov length, --aov tech or --atlas FILE beside it");
+  if (!atlas.empty()) check_display_type("--atlas", atlas);
   one_of("--sampler", sampler, sampler_names());
   display.transform();
 }

@@ -17,11 +17,12 @@ namespace pellucid {
 struct RenderFlags {
   std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, size, crop,
                                  passes, features = "auto", kernel_dir, stats, memory, checkpoint,
-                                 every, vertices;
+                                 every, vertices, atlas;
   std::vector<std::string> overrides, outputs, aovs;
   DeviceFlags device;
   DisplayFlags display;
   std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0, light_paths = 0;
+  std::uint64_t aov_length = 0;  ///< 0: not given
   bool strict = false, deterministic = false, resume = false, dry_run = false;
 
   void declare(CLI::App& app);
@@ -30,15 +31,22 @@ struct RenderFlags {
   LoadOptions load_options() const;
   /// The scene's settings as the flags want them. Throws UsageError.
   void override_settings(RenderSettings& settings) const;
+  /// The method that flag, scene or default name, with the layers that --aov and --atlas need.
+  /// Throws UsageError.
+  Integrator method(const Scene& s) const;
   /// What the session is told. Throws UsageError.
   RenderOptions options(const Scene& scene, const Integrator& method) const;
   /// Seconds between two checkpoints.
   double checkpoint_period() const;
   /// Pictures to write; the default ones are named after the scene.
   std::vector<std::string> output_names(const Scene& scene) const;
+  /// These pictures and the atlas, for reports.
+  std::vector<std::string> results(std::vector<std::string> pictures) const;
 
  private:
-  void declare_files(CLI::App& app);  ///< pictures and checkpoints
+  void declare_files(CLI::App& app);     ///< pictures
+  void declare_progress(CLI::App& app);  ///< checkpoints and ranges of passes
+  uint layer_kinds() const;              ///< LAYERS_* that are asked for
 };
 
 }  // namespace pellucid

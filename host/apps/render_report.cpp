@@ -110,6 +110,7 @@ std::map<std::string, std::string> identity(const RenderFacts& f) {
   return {{"scene", f.scene_hash},
           {"kernels", f.kernels_hash},
           {"settings", settings_text(*f.scene, f.options)},
+          {"layers", describe_layers(f.integrator->layers)},
           {"integrator", f.integrator->name},
           {"seed", std::to_string(f.options.seed)}};
 }

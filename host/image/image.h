@@ -30,6 +30,14 @@ struct Image {
   }
 };
 
+/// A further channel of a picture, by itself.
+struct AovChannel {
+  std::string name;
+  std::vector<float> data;  ///< row by row
+};
+/// Appends channels of the image's size.
+void add_channels(Image& image, const std::vector<AovChannel>& channels);
+
 /// Whole numbers by channel, row-major and interleaved as in Image: data that must come back bit
 /// for bit.
 struct WordImage {

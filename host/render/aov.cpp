@@ -169,22 +169,4 @@ std::optional<std::vector<AovChannel>> render_aovs(Device device, const PackedSc
   return channels;
 }
 
-void add_channels(Image& image, const std::vector<AovChannel>& channels) {
-  if (channels.empty()) return;
-  const std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
-  const std::size_t before = image.channels.size(), after = before + channels.size();
-  std::vector<float> data;
-  data.reserve(pixels * after);
-  for (const AovChannel& c : channels) {
-    PELLUCID_CHECK(c.data.size() == pixels, "AOV size");
-    image.channels.push_back(c.name);
-  }
-  for (std::size_t i = 0; i < pixels; ++i) {
-    data.insert(data.end(), image.data.begin() + std::ptrdiff_t(i * before),
-                image.data.begin() + std::ptrdiff_t((i + 1) * before));
-    for (const AovChannel& c : channels) data.push_back(c.data[i]);
-  }
-  image.data = std::move(data);
-}
-
 }  // namespace pellucid

@@ -23,11 +23,6 @@ struct AovInfo {
 /// In the order in which channels are written.
 const std::vector<AovInfo>& aov_table();
 
-struct AovChannel {
-  std::string name;
-  std::vector<float> data;  ///< of the window, row by row
-};
-
 /// Channels of the window for those of `names` that aov_table() has, each once; nothing is built or
 /// allocated if there are none. `stop` is polled after every iteration; nothing if it said so. Adds
 /// what went wrong to `counters`. Throws DeviceError.
@@ -36,8 +31,5 @@ std::optional<std::vector<AovChannel>> render_aovs(Device device, const PackedSc
                                                    const RenderOptions& options,
                                                    std::vector<Counter>& counters,
                                                    const std::function<bool()>& stop = {});
-
-/// Appends channels of the image's size.
-void add_channels(Image& image, const std::vector<AovChannel>& channels);
 
 }  // namespace pellucid

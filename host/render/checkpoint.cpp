@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 
 #include "base/error.h"
@@ -79,6 +80,15 @@ std::string open_name(std::uint64_t block, std::size_t c, std::size_t word) {
   return fmt::format("open.{}.{}.{}", block, channel_names[c], word);
 }
 
+/// Name and place within a pixel of every word of layers.
+std::vector<std::pair<std::string, std::size_t>> layer_words(const Layers& layers) {
+  std::vector<std::pair<std::string, std::size_t>> words;
+  for (const LayerChannel& channel : layer_channels(layers.set))
+    for (std::size_t w = 0; w < 2; ++w)
+      words.emplace_back(fmt::format("layer.{}.{}", channel.name, w), channel.word + w);
+  return words;
+}
+
 Planes planes_of(const Film& film, const CheckpointFacts& facts) {
   Planes planes(film.pixels.size());
   const std::vector<std::string> names = word_names();
@@ -89,6 +99,10 @@ Planes planes_of(const Film& film, const CheckpointFacts& facts) {
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t w = 0; w < FILM_SUM_WORDS; ++w)
         planes.add(open_name(block, c, w), [&, &s = sums](std::size_t i) { return s[i][c][w]; });
+  for (const auto& [name, word] : layer_words(film.layers))
+    planes.add(name, [&, w = word](std::size_t i) {
+      return film.layers.words[i * film.layers.words_per_pixel() + w];
+    });
   for (const AovChannel& aov : facts.aovs)
     planes.add("aov." + aov.name, [&](std::size_t i) {
       uint bits;
@@ -182,6 +196,19 @@ void read_open_blocks(const WordImage& words, const Facts& facts, Film& film) {
     }
 }
 
+void read_layers(const WordImage& words, const Facts& facts, Film& film) {
+  if (!words.metadata.count(key("layer_set"))) return;
+  Layers& layers = film.layers;
+  layers = Layers(uint(facts.number("layer_set")),
+                  std::ldexp(1.0f, int(facts.number("layer_exponent"))), film.pixels.size());
+  for (const auto& [name, word] : layer_words(layers)) {
+    const int from = words.channel(name);  // left out where it is 0 everywhere
+    for (std::size_t i = 0; from >= 0 && i < film.pixels.size(); ++i)
+      layers.words[i * layers.words_per_pixel() + word] =
+          words.data[i * words.channels.size() + std::size_t(from)];
+  }
+}
+
 std::vector<AovChannel> read_aovs(const WordImage& words, const Facts& facts) {
   std::vector<AovChannel> aovs;
   const std::string list = facts.text("aovs");
@@ -252,6 +279,10 @@ void write_checkpoint(const std::string& path, const Film& film, const Checkpoin
   put("lsb", std::to_string(film.lsb)), put("block_size", std::to_string(film.block_size));
   put("passes", film.passes.text()), put("open", open.text());
   put("current", film.current ? std::to_string(*film.current) : "none");
+  if (film.layers.set) {
+    put("layer_set", std::to_string(film.layers.set));
+    put("layer_exponent", std::to_string(std::ilogb(film.layers.scale)));
+  }
   put("seconds", fmt::format("{}", facts.seconds));
   std::vector<std::string> aovs;
   for (const AovChannel& aov : facts.aovs) aovs.push_back(aov.name);
@@ -279,6 +310,7 @@ Checkpoint read_checkpoint(const std::string& path) {
   CheckpointFacts& about = out.facts;
   about.aovs = read_aovs(words, facts);
   read_open_blocks(words, facts, out.film);
+  read_layers(words, facts, out.film);
   const std::string seconds = facts.text("seconds");
   std::from_chars(seconds.data(), seconds.data() + seconds.size(), about.seconds);
   for (Counter& c : about.counters)

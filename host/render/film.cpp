@@ -106,6 +106,7 @@ void Film::merge(const Film& other) {
   theirs.set_aside();
   set_aside();
   for (const PassRange& range : theirs.passes.ranges()) passes.add(range);
+  layers.merge(theirs.layers);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     FilmPixel& p = pixels[i];
     const FilmPixel& q = theirs.pixels[i];
@@ -186,7 +187,12 @@ Image film_image(const Film& film, bool variance, bool samples) {
       for (double v : s.variance_of_mean) image.data.push_back(float(v));
     if (samples) image.data.push_back(float(film.pixels[i].count[0]));
   }
+  add_channels(image, layer_images(film.layers, film.passes.count()));
   return image;
+}
+
+Image film_atlas(const Film& film) {
+  return strategy_atlas(film.layers, film.window.width, film.window.height, film.passes.count());
 }
 
 }  // namespace pellucid

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "render/layers.h"
 #include "render/pass_set.h"
 #include "shared/layout.h"
 
@@ -42,6 +43,7 @@ class Film {
   std::optional<std::uint64_t> current;
   /// Other blocks begun and not complete: their ends lie in another range of passes.
   std::map<std::uint64_t, std::vector<BlockSum>> open;
+  Layers layers;  ///< of the window, where they are asked for
 
   PassRange block_range(std::uint64_t block) const {
     return {block * block_size, (block + 1) * block_size};
@@ -75,8 +77,11 @@ struct FilmSummary {
 FilmSummary summarise(const Film& film);
 
 /// R G B means; with `variance` also variance.R/G/B, the variance of those means (unbiased, NaN
-/// below 2 complete blocks of passes); with `samples` also the number of passes. A crop knows its
-/// place in the picture.
+/// below 2 complete blocks of passes); with `samples` also the number of passes; then the channels
+/// of its layers. A crop knows its place in the picture.
 Image film_image(const Film& film, bool variance, bool samples);
+
+/// The pyramid of strategies; the film has layers of them.
+Image film_atlas(const Film& film);
 
 }  // namespace pellucid

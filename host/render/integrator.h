@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pack/features.h"
+#include "shared/layers.h"
 
 namespace pellucid {
 
@@ -19,6 +20,7 @@ enum class Bundle {
   eye_vertices,
   vertex_counts,
   aov,
+  layers,
   diag
 };
 
@@ -39,6 +41,7 @@ struct Pass {
   std::string name;
   std::vector<Bundle> bundles;  ///< parameters before the launch struct
   Domain domain = Domain::tile;
+  bool gathers = false;  ///< adds to layers, where they are asked for
 };
 
 struct Integrator {
@@ -47,6 +50,9 @@ struct Integrator {
   FeatureSet wishes;         ///< INTG_* flags
   bool weighs = false;       ///< combines strategies, so --mis has an effect
   std::vector<Pass> passes;  ///< in order
+  uint most_s = 0;           ///< most vertices of a path that are drawn from the light's end; from
+                             ///< LAYER_LENGTH_MAX on any number
+  uint layers = 0;           ///< set of layers that are kept (render/layers.h)
 
   bool uses(Bundle bundle) const {
     for (const Pass& pass : passes)

@@ -110,6 +110,7 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
     add_vertices(options.plan, "light", slice_paths(options, slice), bytes);
   if (integrator.uses(Bundle::eye_vertices)) add_vertices(options.plan, "eye", slice, bytes);
   if (integrator.uses(Bundle::vertex_counts)) bytes["vertex_counts"] = 2 * sizeof(uint);
+  if (integrator.uses(Bundle::layers)) bytes["layers"] = pixels * layer_bytes(integrator.layers);
   return bytes;
 }
 
@@ -117,7 +118,8 @@ MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
                        const Integrator& integrator, const RenderOptions& options) {
   const Window window = options.window();
   const std::uint64_t host_bytes = options.host_bytes;
-  const std::uint64_t film_bytes = window.pixels() * sizeof(FilmPixel);
+  const std::uint64_t film_bytes =
+      window.pixels() * (sizeof(FilmPixel) + layer_bytes(integrator.layers));
   check_host(film_bytes + host_bytes);
   std::uint64_t most = std::min(options.memory.value_or(device.memory), device.memory);
   // A CPU device's memory is the host's, where the film is already.

@@ -28,6 +28,8 @@ std::vector<std::string> bundle_buffers(Bundle bundle) {
       return {VERTEX_COUNT_BUFFERS(PELLUCID_NAME)};
     case Bundle::aov:
       return {AOV_BUFFERS(PELLUCID_NAME)};
+    case Bundle::layers:
+      return {LAYER_BUFFERS(PELLUCID_NAME)};
     case Bundle::diag:
       return {DIAG_BUFFERS(PELLUCID_NAME)};
   }
@@ -192,6 +194,20 @@ void Plan::read_film(FilmPixel* film, std::size_t pixels) {
 
 void Plan::write_film(const FilmPixel* film, std::size_t pixels) {
   device_.write(buffers_.at("film"), film, pixels * sizeof(FilmPixel));
+}
+
+void Plan::read_layers(Layers& layers, std::size_t first, std::size_t pixels) {
+  const std::size_t stride = layers.words_per_pixel();
+  if (layers.set)
+    device_.read(buffers_.at("layers"), &layers.words[first * stride],
+                 pixels * stride * sizeof(uint));
+}
+
+void Plan::write_layers(const Layers& layers, std::size_t first, std::size_t pixels) {
+  const std::size_t stride = layers.words_per_pixel();
+  if (layers.set)
+    device_.write(buffers_.at("layers"), &layers.words[first * stride],
+                  pixels * stride * sizeof(uint));
 }
 
 void Plan::collect(std::vector<Counter>& counters) {

@@ -62,6 +62,9 @@ class Plan {
   /// The first `pixels` of the tile's film.
   void read_film(FilmPixel* film, std::size_t pixels);
   void write_film(const FilmPixel* film, std::size_t pixels);
+  /// The tile's layers: `pixels` of them from `first` on.
+  void read_layers(Layers& layers, std::size_t first, std::size_t pixels);
+  void write_layers(const Layers& layers, std::size_t first, std::size_t pixels);
   /// Adds the device's counters to `counters` and clears them.
   void collect(std::vector<Counter>& counters);
 

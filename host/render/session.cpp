@@ -42,18 +42,22 @@ Session::Session(const Device& device, const PackedScene& scene, const Integrato
       film_(options.width, options.height, options.window(),
             scene.brightness_exponent - FILM_FRACTION_BITS, block_size_of(plan_)) {
   PELLUCID_CHECK(options_.passes || options_.seconds, "a render needs a budget");
-  device_has_film_ = !start && memory_.tiles.size() == 1;  // both black
-  if (start) {
-    PELLUCID_CHECK(start->window == film_.window && start->lsb == film_.lsb &&
-                       start->block_size == film_.block_size,
-                   "a film to go on with is of the same picture");
-    film_ = std::move(*start);
-  }
   launch_ = make_launch(scene, options_.width, options_.height, options_.window(),
                         options_.light_paths.value_or(0));
   launch_.seed = hash_seed(options_.seed);
   launch_.max_depth = options_.max_depth.value_or(NONE);
   launch_.mis = options_.mis;
+  launch_.layer_set = integrator.layers;
+  film_.layers = Layers(integrator.layers, launch_.splat_scale, film_.pixels.size());
+  device_has_film_ = !start && memory_.tiles.size() == 1;  // both black
+  if (start) {
+    PELLUCID_CHECK(start->window == film_.window && start->lsb == film_.lsb &&
+                       start->block_size == film_.block_size &&
+                       start->layers.set == film_.layers.set &&
+                       start->layers.scale == film_.layers.scale,
+                   "a film to go on with is of the same picture");
+    film_ = std::move(*start);
+  }
 }
 
 /// The next passes to do, at most `most` and within one block unless every block on the way is new
@@ -76,11 +80,13 @@ void Session::to_device(const Window& tile) {
   if (device_has_film_) return;
   const std::size_t first = std::size_t(tile.y0 - film_.window.y0) * std::size_t(tile.width);
   plan_.write_film(film_.pixels.data() + first, tile.pixels());
+  plan_.write_layers(film_.layers, first, tile.pixels());
 }
 
 void Session::to_host(const Window& tile) {
   const std::size_t first = std::size_t(tile.y0 - film_.window.y0) * std::size_t(tile.width);
   plan_.read_film(film_.pixels.data() + first, tile.pixels());
+  plan_.read_layers(film_.layers, first, tile.pixels());
 }
 
 const Film& Session::film() {

@@ -55,19 +55,25 @@ INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, Launch l
 
 #if PELLUCID_DEVICE
 
+/// Whether the tile has pixel (x, y) of the whole picture.
 INLINE int film_in_tile(Launch launch, int x, int y) {
   return x >= (int)launch.tile_x && y >= (int)launch.tile_y &&
          x < (int)(launch.tile_x + launch.tile_width) &&
          y < (int)(launch.tile_y + launch.tile_height);
 }
 
+/// Place in the tile of a pixel that it has.
+INLINE uint film_pixel(Launch launch, int x, int y) {
+  return ((uint)y - launch.tile_y) * launch.tile_width + ((uint)x - launch.tile_x);
+}
+
 /// Adds `steps` to a 64-bit counter kept as two words, low first. Integer sums are the same in any
 /// order, so splats do not depend on scheduling. Without 64-bit atomics the carry goes by hand. A
-/// sum that leaves 64 bits is counted.
-INLINE void splat_word(__global uint* word, __global uint* diag, ulong steps) {
+/// sum that leaves 64 bits is counted by `saturated`.
+INLINE void splat_word(__global uint* word, __global uint* diag, ulong steps, uint saturated) {
 #if DEV_INT64_ATOMICS
   ulong before = atom_add((__global ulong*)word, steps);
-  if (before + steps < before) diag_add(diag, DIAG_splat_saturated);
+  if (before + steps < before) diag_add(diag, saturated);
 #else
   uint low = (uint)steps;
   uint old = atomic_add(&word[0], low);
@@ -75,16 +81,16 @@ INLINE void splat_word(__global uint* word, __global uint* diag, ulong steps) {
   uint high = (uint)(steps >> 32) + carry;
   if (high) {
     uint old_high = atomic_add(&word[1], high);
-    if (old_high + high < old_high) diag_add(diag, DIAG_splat_saturated);
+    if (old_high + high < old_high) diag_add(diag, saturated);
   }
 #endif
 }
 
-/// Steps of one channel; too large a value is cut and counted.
-INLINE ulong splat_steps(float value, float scale, __global uint* diag) {
+/// Steps of one channel; too large a value is cut and counted by `saturated`.
+INLINE ulong splat_steps(float value, float scale, __global uint* diag, uint saturated) {
   float steps = value * scale;
   if (steps > SPLAT_FIXED_MAX) {
-    diag_add(diag, DIAG_splat_saturated);
+    diag_add(diag, saturated);
     steps = SPLAT_FIXED_MAX;
   }
   return convert_ulong_rte(steps);
@@ -106,11 +112,11 @@ INLINE void film_splat(__global uint* splats, __global uint* diag, Launch launch
     diag_add(diag, DIAG_negative);
     return;
   }
-  uint pixel = ((uint)y - launch.tile_y) * launch.tile_width + ((uint)x - launch.tile_x);
-  __global uint* word = splats + (size_t)pixel * SPLAT_WORDS;
-  splat_word(word, diag, splat_steps(r, launch.splat_scale, diag));
-  splat_word(word + 2, diag, splat_steps(g, launch.splat_scale, diag));
-  splat_word(word + 4, diag, splat_steps(b, launch.splat_scale, diag));
+  const uint saturated = DIAG_splat_saturated;
+  __global uint* word = splats + (size_t)film_pixel(launch, x, y) * SPLAT_WORDS;
+  splat_word(word, diag, splat_steps(r, launch.splat_scale, diag, saturated), saturated);
+  splat_word(word + 2, diag, splat_steps(g, launch.splat_scale, diag, saturated), saturated);
+  splat_word(word + 4, diag, splat_steps(b, launch.splat_scale, diag, saturated), saturated);
 }
 
 /// Books the rays of a light path on a pixel of the window, so that no pixel gets many at once and
@@ -121,8 +127,8 @@ INLINE void film_count_rays(__global uint* splats, __global uint* diag, Launch l
   int x = (int)(launch.window_x + home % launch.window_width);
   int y = (int)(launch.window_y + home / launch.window_width);
   if (!film_in_tile(launch, x, y)) return;
-  uint pixel = ((uint)y - launch.tile_y) * launch.tile_width + ((uint)x - launch.tile_x);
-  splat_word(splats + (size_t)pixel * SPLAT_WORDS + 6, diag, rays);
+  splat_word(splats + (size_t)film_pixel(launch, x, y) * SPLAT_WORDS + 6, diag, rays,
+             DIAG_splat_saturated);
 }
 
 /// A splat counter as radiance.

@@ -1,8 +1,9 @@
 // camera_trace: one eye path per pixel of a slice: emission that it meets, light samples, and
 // vertices stored for connections. Reads: scene, filter. Writes: samples [pixels of the tile],
-// eye_vertices, eye_last, eye_first (their number) [pixels of the slice], vertex_counts, diag.
-// Domain: pixels of the slice. Atomics: vertex_counts, diag. Next: vertex_scan, or film_add. Flags:
-// INTG_NEE, INTG_SPLAT, INTG_CONNECT, INTG_COMPACT, INTG_SOBOL, INTG_FILTER.
+// eye_vertices, eye_last, eye_first (their number) [pixels of the slice], vertex_counts,
+// layers, diag. Domain: pixels of the slice. Atomics: vertex_counts, layers, diag. Next:
+// vertex_scan, or film_add. Flags: INTG_NEE, INTG_SPLAT, INTG_CONNECT, INTG_COMPACT, INTG_LAYERS,
+// INTG_SOBOL, INTG_FILTER.
 #include "passes/bundles.h"
 #include "passes/tile.h"
 #include "transport/path.h"
@@ -11,7 +12,10 @@ __kernel void camera_trace(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
 #if INTG_CONNECT
                                EYE_VERTEX_PARAMS VERTEX_COUNT_PARAMS
 #endif
-                                   DIAG_PARAMS const Launch launch) {
+#if INTG_LAYERS
+                                   LAYER_PARAMS
+#endif
+                                       DIAG_PARAMS const Launch launch) {
   uint index = (uint)get_global_id(0);
   if (index >= launch.slice_count) return;
   SCENE_FROM_PARAMS
@@ -22,8 +26,15 @@ __kernel void camera_trace(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
 #else
   VertexStore store = vertex_store_at(0, 0, 0u);
 #endif
+#if INTG_LAYERS
+  LayerSink sink = layer_sink(layers, diag, launch, pixel);
+  if (pixel < launch.gather_first) sink.set = 0u;  // traced again, for its vertices alone
+#endif
   uint rays;
   real3 radiance = path_radiance(&scene_data, launch, s.rng, s.ray, camera_pdf_w(camera, s.ray.d),
+#if INTG_LAYERS
+                                 sink,
+#endif
                                  &store, &rays);
   if (pixel >= launch.gather_first)
     samples[pixel] = (float4)(radiance.x, radiance.y, radiance.z, (float)rays);

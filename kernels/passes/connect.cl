@@ -1,12 +1,15 @@
 // connect: joins every vertex of a pixel's eye path with every vertex of the light path paired with
 // it. Reads: scene, light and eye vertices with their order. Writes: samples [pixels of the tile]
-// (adds), diag. Domain: pixels of the slice. Atomics: diag only. Next: film_add. Flags:
-// INTG_COMPACT.
+// (adds), layers, diag. Domain: pixels of the slice. Atomics: layers, diag. Next: film_add. Flags:
+// INTG_COMPACT, INTG_LAYERS.
 #include "passes/bundles.h"
 #include "transport/connect.h"
 
 __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARAMS
-                          DIAG_PARAMS const Launch launch) {
+#if INTG_LAYERS
+                          LAYER_PARAMS
+#endif
+                              DIAG_PARAMS const Launch launch) {
   uint index = (uint)get_global_id(0);
   if (index >= launch.slice_count) return;
   SCENE_FROM_PARAMS
@@ -29,6 +32,10 @@ __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PA
       ++rays;
       if (bvh_trace(&scene_data, link.ray, 1).prim != NONE) continue;
       sum += link.value * link.weight;
+#if INTG_LAYERS
+      layer_add(layer_sink(layers, diag, launch, pixel), link.value, link.weight, light.depth + 1u,
+                eye.depth + light.depth + 1u);
+#endif
     }
   }
   samples[pixel] += (float4)(sum, (float)rays);

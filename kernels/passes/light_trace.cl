@@ -1,9 +1,10 @@
 // light_trace: walks from the lights. Each vertex with a spread lobe is splatted to the pixel that
 // sees it, and stored for connections. Reads: scene, filter. Writes: splats [pixels of the tile],
 // light_vertices, light_last, light_first (their number) [paths of the launch], vertex_counts,
-// diag. Domain: light paths of the launch. Atomics: splats, vertex_counts, diag. Next: vertex_scan,
-// or film_add. Flags: INTG_CONNECT, INTG_COMPACT, INTG_SOBOL, INTG_FILTER.
-#include "film/film.h"
+// layers, diag. Domain: light paths of the launch. Atomics: splats, vertex_counts, layers, diag.
+// Next: vertex_scan, or film_add. Flags: INTG_CONNECT, INTG_COMPACT, INTG_LAYERS, INTG_SOBOL,
+// INTG_FILTER.
+#include "film/layers.h"
 #include "passes/bundles.h"
 #include "transport/light_walk.h"
 #include "transport/stored_vertex.h"
@@ -11,8 +12,11 @@
 /// The vertex as the camera sees it.
 INLINE void splat_vertex(PRIVATE const SceneData* scene, Launch launch, Camera camera,
                          __global const float* filter_table, __global const float* filter_values,
-                         __global uint* splats, Rng rng, PRIVATE LightWalk* w,
-                         PRIVATE const Vertex* v) {
+                         __global uint* splats,
+#if INTG_LAYERS
+                         __global uint* layers,
+#endif
+                         Rng rng, PRIVATE LightWalk* w, PRIVATE const Vertex* v) {
   CameraLink link;
   if (!camera_link(scene, launch, camera, w, v, &link)) return;
   int x, y;
@@ -32,13 +36,21 @@ INLINE void splat_vertex(PRIVATE const SceneData* scene, Launch launch, Camera c
   if (bvh_trace(scene, link.ray, 1).prim != NONE) return;
   real3 value = link.value * (link.weight * weight);
   film_splat(splats, scene->diag, launch, x, y, value.x, value.y, value.z);
+#if INTG_LAYERS
+  uint s = w->depth + 1u;
+  layer_splat(layers, scene->diag, launch, x, y, link.value * weight, link.weight, s, s);
+  layer_vertex(layers, scene->diag, launch, x, y);
+#endif
 }
 
 __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
 #if INTG_CONNECT
                               LIGHT_VERTEX_PARAMS VERTEX_COUNT_PARAMS
 #endif
-                                  DIAG_PARAMS const Launch launch) {
+#if INTG_LAYERS
+                                  LAYER_PARAMS
+#endif
+                                      DIAG_PARAMS const Launch launch) {
   uint index = (uint)get_global_id(0);
   if (index >= launch.path_count) return;
   SCENE_FROM_PARAMS
@@ -57,7 +69,11 @@ __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
   while (w.depth + 1u < limit && light_walk_next(&scene_data, &w, &v)) {
     if (!bsdf_is_delta(v.material)) {
       if (splatted)
-        splat_vertex(&scene_data, launch, camera, filter_table, filter_values, splats, rng, &w, &v);
+        splat_vertex(&scene_data, launch, camera, filter_table, filter_values, splats,
+#if INTG_LAYERS
+                     layers,
+#endif
+                     rng, &w, &v);
 #if INTG_CONNECT
       if (stored && w.depth + 2u <= launch.max_depth)
         vertex_store(&store, &v, w.walk.beta, w.walk.partials, w.depth);

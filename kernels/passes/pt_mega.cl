@@ -1,17 +1,26 @@
 // pt_mega: one camera path per pixel, whole.
-// Reads: scene, filter. Writes: samples [pixels], diag. Domain: pixels. Atomics: diag only. Next:
-// film_add. Flags: INTG_NEE, INTG_MIS, INTG_UNIFORM, INTG_SOBOL, INTG_FILTER.
+// Reads: scene, filter. Writes: samples [pixels], layers, diag. Domain: pixels. Atomics: layers,
+// diag. Next: film_add. Flags: INTG_NEE, INTG_MIS, INTG_UNIFORM, INTG_LAYERS, INTG_SOBOL,
+// INTG_FILTER.
 #include "passes/bundles.h"
 #include "passes/tile.h"
 #include "transport/path.h"
 
-__kernel void pt_mega(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS DIAG_PARAMS const Launch launch) {
+__kernel void pt_mega(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
+#if INTG_LAYERS
+                          LAYER_PARAMS
+#endif
+                              DIAG_PARAMS const Launch launch) {
   uint pixel = (uint)get_global_id(0);
   if (pixel >= launch.tile_width * launch.tile_height) return;
   SCENE_FROM_PARAMS
   TileSample s = tile_sample(launch, camera, filter_table, pixel);
   VertexStore store = vertex_store_at(0, 0, 0u);
   uint rays;
-  real3 radiance = path_radiance(&scene_data, launch, s.rng, s.ray, 1.0f, &store, &rays);
+  real3 radiance = path_radiance(&scene_data, launch, s.rng, s.ray, 1.0f,
+#if INTG_LAYERS
+                                 layer_sink(layers, diag, launch, pixel),
+#endif
+                                 &store, &rays);
   samples[pixel] = (float4)(radiance.x, radiance.y, radiance.z, (float)rays);
 }

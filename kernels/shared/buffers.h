@@ -50,6 +50,10 @@
   X(uint, eye_order, "[eye capacity]")
 #define VERTEX_COUNT_BUFFERS(X) X(uint, vertex_counts, "slots asked for: light, eye [2]")
 
+#define LAYER_BUFFERS(X) \
+  X(uint, layers,        \
+    "64-bit fixed point, low word first [pixels][layers][3 channels][2 words] (shared/layers.h)")
+
 #define AOV_BUFFERS(X) X(AovPixel, aovs, "what camera rays meet first [pixels]")
 
 #define DIAG_BUFFERS(X) X(uint, diag, "counters of what went wrong [DIAG_COUNT]")
@@ -63,7 +67,9 @@
   X(path_stuck, 1, "paths ended by the hard limit on path length")                        \
   X(film_saturated, 1, "samples cut because they exceed the film's range")                \
   X(splat_outside, 1, "splats dropped because their pixel is outside the film")           \
-  X(splat_saturated, 1, "splats cut because they exceed the fixed-point range")
+  X(splat_saturated, 1, "splats cut because they exceed the fixed-point range")           \
+  X(layer_dropped, 1, "parts of layers dropped: they were NaN, infinite or negative")     \
+  X(layer_saturated, 1, "parts of layers cut because they exceed the fixed-point range")
 
 #define DIAG_ENUM(name, error, meaning) DIAG_##name,
 enum { DIAG_COUNTERS(DIAG_ENUM) DIAG_COUNT };

@@ -38,6 +38,7 @@
   X(INTG_SPLAT, "contributions splatted to any pixel")                           \
   X(INTG_CONNECT, "eye and light paths connected at every pair of vertices")     \
   X(INTG_COMPACT, "path vertices in half the bytes")                             \
+  X(INTG_LAYERS, "radiance kept apart by path length and strategy")              \
   X(INTG_SOBOL, "Owen-scrambled Sobol points instead of random numbers")         \
   X(INTG_FILTER, "a pixel filter that is not the box")
 

@@ -180,7 +180,8 @@ typedef struct Launch {
   float splat_scale;             // fixed-point steps per unit of radiance, a power of two
   int film_lsb;                  // exponent of the film's step: sums count multiples of 2^film_lsb
   uint block_ends;               // 1: this iteration completes its block
-  uint pad0, pad1, pad2;
+  uint layer_set;                // layers that are kept apart (shared/layers.h)
+  uint pad0, pad1;
   uint window_x, window_y;            // the rendered part of the picture: tiles are parts of it
   uint window_width, window_height;   // pixels
   uint slice_first, slice_count;      // pixels of the tile that passes over slices are about

@@ -33,6 +33,9 @@ INLINE real chance_weight(Launch launch, PRIVATE const Walk* walk, uint depth, r
 /// light's end) as a path of `depth` segments.
 INLINE void walk_gather(PRIVATE Walk* walk, real3 value, real weight, uint s, uint depth) {
   walk->radiance += value * weight;
+#if INTG_LAYERS
+  layer_add(walk->layers, value, weight, s, depth);
+#endif
 }
 
 /// The ray left the scene.
@@ -102,10 +105,17 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
 /// Radiance [W/(m^2 sr)] along a camera ray; *rays receives the number of rays traced. `store`
 /// takes the vertices that light paths will be connected to (unused without INTG_CONNECT).
 INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rng, Ray camera_ray,
-                           real pdf_camera, PRIVATE VertexStore* store, PRIVATE uint* rays) {
+                           real pdf_camera,
+#if INTG_LAYERS
+                           LayerSink layers,
+#endif
+                           PRIVATE VertexStore* store, PRIVATE uint* rays) {
   Walk walk = walk_start(camera_ray, REAL3(1.0f, 1.0f, 1.0f));
 #if INTG_CONNECT
   walk.partials.dVCM = (real)launch.light_paths / pdf_camera;
+#endif
+#if INTG_LAYERS
+  walk.layers = layers;
 #endif
   uint limit = depth_limit(launch);
   for (uint depth = 1; depth <= limit; ++depth) {

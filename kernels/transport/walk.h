@@ -4,6 +4,7 @@
 #define PELLUCID_TRANSPORT_WALK_H
 
 #include "core/rng.h"
+#include "film/layers.h"
 #include "transport/partials.h"
 #include "transport/vertex.h"
 
@@ -18,6 +19,9 @@ typedef struct Walk {
   real pdf_w;  // density of ray.d by the walk, survival included; 0 after delta or at the camera
 #if INTG_CONNECT
   Partials partials;
+#endif
+#if INTG_LAYERS
+  LayerSink layers;  // of the pixel of a walk from the camera
 #endif
   uint rays;
 } Walk;

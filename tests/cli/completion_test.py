@@ -59,6 +59,11 @@ def test_bash():
     check(complete("render", "--tonemap", "=", "f") == ["filmic"], "after =")
     check(complete("render", "--tonemap", "=") == ["srgb", "filmic", "none"], "right after =")
     check(complete("render", "--mis", "p") == ["power"], "choices by their beginning")
+    aovs = complete("render", "--aov", "")
+    check({"variance", "samples", "length", "tech", "light-vertices", "Z", "Ng", "id.object"} <= set(aovs),
+          "AOVs", aovs)
+    check(complete("render", "--aov", "le") == ["length"], "an AOV by its beginning")
+    check(complete("kernels", "x", "--features", "") == ["auto", "all"], "LIST is no word to type")
     check(complete("render", "--spp", "") == [], "nothing to propose for numbers")
     check(complete("completion", "z") == ["zsh"], "shells")
 

@@ -30,8 +30,8 @@ KERNELS = {
     "camera": _LOW,
     "bsdf": _LOW,
     "light": _LOW,
-    "transport": _LOW | {"camera", "bsdf", "light"},
     "film": {"shared", "core"},
+    "transport": _LOW | {"camera", "bsdf", "light", "film"},
     "passes": _LOW | {"camera", "bsdf", "light", "transport", "film"},
 }
 # Library header -> the only host modules that may include it.

@@ -16,9 +16,10 @@ KERNELS = ROOT / "kernels"
 FLAGS = re.findall(r"X\((\w+),", (KERNELS / "shared/features.h").read_text())
 EFFECTS = [f for f in FLAGS if f.startswith("FEAT_")]
 METHODS = [[], ["INTG_NEE", "INTG_SOBOL"], ["INTG_NEE", "INTG_MIS", "INTG_SOBOL", "INTG_FILTER"],
-           ["INTG_UNIFORM"], ["INTG_SPLAT", "INTG_FILTER"],
+           ["INTG_NEE", "INTG_MIS", "INTG_LAYERS"],
+           ["INTG_UNIFORM"], ["INTG_SPLAT", "INTG_LAYERS", "INTG_FILTER"],
            ["INTG_NEE", "INTG_MIS", "INTG_SPLAT", "INTG_CONNECT", "INTG_SOBOL", "INTG_FILTER"],
-           ["INTG_NEE", "INTG_MIS", "INTG_SPLAT", "INTG_CONNECT", "INTG_COMPACT"]]
+           ["INTG_NEE", "INTG_MIS", "INTG_SPLAT", "INTG_CONNECT", "INTG_COMPACT", "INTG_LAYERS"]]
 WARNINGS = ["-Wall", "-Wextra", "-Werror", "-Wdouble-promotion", "-Wundef", "-Wconversion",
             "-Wno-sign-conversion", "-Wno-implicit-int-float-conversion", "-Wno-unused-parameter",
             "-Wno-unused-function"]

@@ -131,7 +131,7 @@ std::size_t different_pixels(const Film& a, const Film& b) {
 
 bool same_film(const Film& a, const Film& b) {
   return different_pixels(a, b) == 0 && a.passes.text() == b.passes.text() && a.lsb == b.lsb &&
-         a.current == b.current && a.open == b.open;
+         a.current == b.current && a.open == b.open && a.layers == b.layers;
 }
 
 Renderer::Renderer(const Scene& scene, const Build& build)

@@ -17,7 +17,7 @@ def render(pellucid, method, threads, folder):
     name = pathlib.Path(folder) / f"{method}-{threads}.exr"
     subprocess.run([pellucid, "render", SCENE, "-i", method, "--size", "32x24", "--spp", "32",
                     "--threads", str(threads),
-                    "--features", "all", "--aov", "variance,samples", "--strict", "--deterministic",
+                    "--features", "all", "--aov", "variance,samples,length,tech", "--strict", "--deterministic",
                     "--quiet", "-o", name], check=True,
                    stdout=subprocess.DEVNULL, timeout=120)
     return name.read_bytes()

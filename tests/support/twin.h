@@ -16,6 +16,7 @@
 #include "shared/buffers.h"
 #include "shared/features.h"
 #include "shared/film_sums.h"
+#include "shared/layers.h"
 #include "shared/layout.h"
 #include "shared/limits.h"
 #include "support/twin_prelude.h"

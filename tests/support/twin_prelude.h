@@ -39,6 +39,7 @@
 #endif
 #define INTG_SPLAT INTG_CONNECT
 #define INTG_COMPACT 0
+#define INTG_LAYERS 0
 #ifndef INTG_SOBOL
 #define INTG_SOBOL 0
 #endif

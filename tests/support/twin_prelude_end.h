@@ -27,6 +27,7 @@
 #undef INTG_COMPACT
 #undef INTG_CONNECT
 #undef INTG_FILTER
+#undef INTG_LAYERS
 #undef INTG_MIS
 #undef INTG_NEE
 #undef INTG_SOBOL
