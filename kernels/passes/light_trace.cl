@@ -17,21 +17,27 @@ INLINE void splat_vertex(PRIVATE const SceneData* scene, Launch launch, Camera c
                          __global uint* layers,
 #endif
                          Rng rng, PRIVATE LightWalk* w, PRIVATE const Vertex* v) {
-  CameraLink link;
-  if (!camera_link(scene, launch, camera, w, v, &link)) return;
+  FilmPosition at;
+  if (!camera_project(camera, v->surface.p, &at)) return;
   int x, y;
-  real weight = 1.0f;
+  real weight = 1.0f, reach = 0.0f;
+#if INTG_FILTER
+  reach = filter_table[0];
+#endif
+  if (!(at.x > -reach && at.x < (real)launch.width + reach)) return;
+  if (!(at.y > -reach && at.y < (real)launch.height + reach)) return;
 #if INTG_FILTER
   real weight_y;
   Random4 u = rng4(rng, DIM_LIGHT_WALK_SPLAT(w->depth));
-  x = filter_pixel(filter_table, filter_values, link.at.x, u.x, &weight);
-  y = filter_pixel(filter_table, filter_values, link.at.y, u.y, &weight_y);
+  x = filter_pixel(filter_table, filter_values, at.x, u.x, &weight);
+  y = filter_pixel(filter_table, filter_values, at.y, u.y, &weight_y);
   weight *= weight_y;
 #else
-  x = (int)floor(link.at.x);
-  y = (int)floor(link.at.y);
+  x = (int)floor(at.x);
+  y = (int)floor(at.y);
 #endif
-  if (!film_in_tile(launch, x, y)) return;
+  CameraLink link;
+  if (!film_in_tile(launch, x, y) || !camera_link(scene, launch, camera, w, v, &link)) return;
   ++w->walk.rays;
   if (bvh_trace(scene, link.ray, 1).prim != NONE) return;
   real3 value = link.value * (link.weight * weight);

@@ -51,17 +51,15 @@ INLINE int light_walk_next(PRIVATE const SceneData* scene, PRIVATE LightWalk* w,
 
 /// What a vertex of a light path sends to the camera (s = number of its vertices, t = 1).
 typedef struct CameraLink {
-  FilmPosition at;
-  real3 value;  // radiance of the pixel that contains `at`, visibility still to be seen
+  real3 value;  // radiance of the pixel that sees it, visibility still to be seen
   real weight;
   Ray ray;  // for visibility
 } CameraLink;
 
-/// 0 where nothing arrives.
+/// For a vertex in front of the camera. 0 where nothing arrives.
 INLINE int camera_link(PRIVATE const SceneData* scene, Launch launch, Camera camera,
                        PRIVATE const LightWalk* w, PRIVATE const Vertex* v,
                        PRIVATE CameraLink* link) {
-  if (!camera_project(camera, v->surface.p, &link->at)) return 0;
   real3 d = load3(camera.origin) - v->surface.p;
   real d2 = dot3(d, d);
   real3 wi = d * (REAL(1.0) / r_sqrt(d2));

@@ -10,9 +10,41 @@
 #include "shared/layout.h"
 
 /// What a sub-path knows of the strategies that would have drawn its vertices from the other end.
+/// dVC is a sum over all its vertices: along the way it may leave the range of float and come back.
 typedef struct Partials {
-  real dVCM, dVC;
+  real dVCM;
+  real dVC_scaled;  // dVC over 2^(64 scale)
+  uint scale;
 } Partials;
+
+#define PARTIALS_SCALE REAL(18446744073709551616.0)         /* 2^64 */
+#define PARTIALS_SCALE_INV REAL(5.42101086242752217004e-20) /* 2^-64 */
+
+INLINE Partials partials_start(real dVCM, real dVC) {
+  Partials q;
+  q.dVCM = dVCM;
+  q.dVC_scaled = dVC;
+  q.scale = 0u;
+  return q;
+}
+
+/// dVC, or the largest number: next to that no strategy whose densities are numbers has weight.
+INLINE real partials_dVC(Partials q) {
+  if (q.scale == 0u) return q.dVC_scaled;
+  return q.scale == 1u ? r_min(q.dVC_scaled * PARTIALS_SCALE, REAL_MAX) : REAL_MAX;
+}
+
+/// Moves dVC to the middle of the range of float. What is small stays at scale 0: against dVCM, to
+/// which it will be added, it may vanish.
+INLINE void partials_rescale(PRIVATE Partials* q) {
+  if (q->dVC_scaled > PARTIALS_SCALE) {
+    q->dVC_scaled = r_min(q->dVC_scaled, REAL_MAX) * PARTIALS_SCALE_INV;
+    ++q->scale;
+  } else if (q->scale > 0u && q->dVC_scaled < REAL(1.0)) {
+    q->dVC_scaled = q->dVC_scaled * PARTIALS_SCALE;
+    --q->scale;
+  }
+}
 
 /// a + b, or under the power heuristic sqrt(a^2 + b^2), for a, b >= 0. Cut at the largest number:
 /// an infinity would make NaN of the next density that is 0.
@@ -37,7 +69,7 @@ INLINE real partial_weight(uint heuristic, real light, real eye) {
 INLINE void partials_arrive(PRIVATE Partials* q, real distance2, real cos_g) {
   real inv = REAL(1.0) / cos_g;
   q->dVCM = r_min(q->dVCM * distance2 * inv, REAL_MAX);
-  q->dVC = r_min(q->dVC * inv, REAL_MAX);
+  q->dVC_scaled = r_min(q->dVC_scaled * inv, REAL_MAX);
 }
 
 /// It goes on by a lobe with densities `forward` and `reverse` [1/sr], survival included, leaving
@@ -45,22 +77,26 @@ INLINE void partials_arrive(PRIVATE Partials* q, real distance2, real cos_g) {
 INLINE void partials_scatter(uint heuristic, PRIVATE Partials* q, real forward, real reverse,
                              real cos_g) {
   real inv = REAL(1.0) / forward;
-  real before = partial_sum(heuristic, q->dVC * reverse, q->dVCM);
-  q->dVC = r_min(before * cos_g * inv, REAL_MAX);
+  real vcm = q->dVCM;
+  if (q->scale > 0u) vcm = q->scale == 1u ? vcm * PARTIALS_SCALE_INV : REAL(0.0);
+  real before = partial_sum(heuristic, q->dVC_scaled * reverse, vcm);
+  q->dVC_scaled = before * cos_g * inv;
   q->dVCM = r_min(inv, REAL_MAX);
+  partials_rescale(q);
 }
 
 /// It goes on by a delta lobe: nothing connects here. `reverse` is the density of the way back over
 /// that of the way there (BsdfSample.reverse).
 INLINE void partials_scatter_delta(PRIVATE Partials* q, real reverse, real cos_g) {
   q->dVCM = REAL(0.0);
-  q->dVC = r_min(q->dVC * cos_g * reverse, REAL_MAX);
+  q->dVC_scaled = q->dVC_scaled * cos_g * reverse;
+  partials_rescale(q);
 }
 
 /// What the strategies on one side weigh at its end vertex: `pdf_a` [1/m^2] draws this vertex from
 /// the other side, `reverse` [1/sr] from here the one before.
 INLINE real partials_end(uint heuristic, Partials q, real pdf_a, real reverse) {
-  return pdf_a * partial_sum(heuristic, q.dVC * reverse, q.dVCM);
+  return pdf_a * partial_sum(heuristic, partials_dVC(q) * reverse, q.dVCM);
 }
 
 #endif

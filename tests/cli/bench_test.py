@@ -67,6 +67,20 @@ with tempfile.TemporaryDirectory() as folder:
     # Errors, unlike times, are the same in every run.
     gain = math.prod(c["gain_equal_spp"] for c in cells) ** (1 / len(cells))
     check(gain > 1.1, "sobol is worth something", gain, cells)
+    done = subprocess.run([PELLUCID, "bench", "--only", "render", "--scene", "furnace", "--repeats", "2",
+                           "--json", "-"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          timeout=500)
+    check(done.returncode == 0, "exit code of the render workload", done.stderr)
+    cells = json.loads(done.stdout)["methods"]
+    check([c["integrator"] for c in cells] == ["path", "naive", "nee", "light", "bdpt"], "methods", cells)
+    for cell in cells:
+        check(cell["relmse"] > 0 and cell["seconds"] > 0 and cell["mrays_per_s"] > 0, "figures", cell)
+        check(abs(cell["efficiency"] * cell["relmse"] * cell["seconds"] - 1) < 1e-6, "efficiency", cell)
+        check(abs(cell["gain"] - cell["efficiency"] / cells[0]["efficiency"]) < 1e-6 * cell["gain"],
+              "gain is over path", cell)
+    done = subprocess.run([PELLUCID, "bench", "--only", "rays", "--scene", "furnace"],
+                          stderr=subprocess.PIPE, text=True)
+    check(done.returncode == 2 and "--only render" in done.stderr, "--scene", done.stderr)
     done = subprocess.run([PELLUCID, "bench", "--only", "sampler", "--baseline", str(baseline)],
                           stderr=subprocess.PIPE, text=True)
     check(done.returncode == 2 and "rays" in done.stderr, "a baseline is for rays", done.stderr)

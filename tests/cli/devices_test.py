@@ -17,7 +17,7 @@ from harness import PELLUCID, QUICK, SOURCE, check, document, expect, run, run_t
 
 COMMANDS = ("render", "devices", "info", "compare", "bench", "merge", "kernels", "schema",
             "completion")
-METHODS = ("naive", "nee", "path", "reference")
+METHODS = ("naive", "nee", "path", "reference", "light", "bdpt")
 
 
 def test_devices():

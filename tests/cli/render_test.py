@@ -14,7 +14,7 @@ sys.dont_write_bytecode = True
 from harness import (HEIGHT, QUICK, ROOM, SOURCE, WIDTH, check, document, expect, read_bytes, read_json,
                      run_tests, same_pixels, write_text)
 
-METHODS = ("naive", "nee", "path", "reference")
+METHODS = ("naive", "nee", "path", "reference", "light", "bdpt")
 
 
 def stats_of(*options):
@@ -106,11 +106,34 @@ def test_mis():
         expect(0, [*QUICK, "--mis", rule, "-o", rule + ".exr"])
     check(not same_pixels("balance.exr", "power.exr"), "power differs")
     check(not same_pixels("power.exr", "max.exr"), "max differs")
-    for method in ("naive", "nee", "reference"):
+    expect(0, [*QUICK, "-i", "bdpt", "-o", "bdpt.exr"])
+    expect(0, [*QUICK, "-i", "bdpt", "--mis", "power", "-o", "bdpt-power.exr"])
+    check(not same_pixels("bdpt.exr", "bdpt-power.exr"), "power differs in bdpt")
+    expect(2, [*QUICK, "-i", "bdpt", "--mis", "max"], "--mis max", "path")
+    for method in ("naive", "nee", "reference", "light"):
         expect(0, [*QUICK, "-i", method, "--mis", "balance"])
         for rule in ("power", "max"):
             expect(2, [*QUICK, "-i", method, "--mis", rule], "--mis", method)
     expect(2, [*QUICK, "--mis", "powr"], "Did you mean 'power'?")
+
+
+def test_sub_paths():
+    """Light paths and the vertices of sub-paths."""
+    stats = {n: stats_of("-i", "light", "--spp", "256", "--light-paths", str(n)) for n in (64, 4096)}
+    for n, s in stats.items():
+        check(close(s["mean"], stats_of("--spp", "256")["mean"], 0.05), f"{n} light paths", s)
+    check(stats[4096]["rays"] > 4 * stats[64]["rays"], "more paths, more rays", stats)
+    full, compact = (stats_of("-i", "bdpt", "--vertices", kind) for kind in ("full", "compact"))
+    for side in ("light_vertices", "eye_vertices"):
+        check(2 * compact["memory_bytes"][side] == full["memory_bytes"][side], "half the bytes", side)
+    check(close(compact["mean"], full["mean"], 0.002), "compact is close", compact, full)
+    names = [p["name"] for p in full["passes"]]
+    check(names == ["light_trace", "camera_trace", "vertex_scan", "vertex_order", "connect",
+                    "film_add"], "passes of bdpt", names)
+    expect(2, [*QUICK, "--light-paths", "64"], "--light-paths", "'path'")
+    expect(2, [*QUICK, "-i", "light", "--light-paths", "0"], "--light-paths")
+    expect(2, [*QUICK, "-i", "light", "--vertices", "compact"], "--vertices", "'light'")
+    expect(2, [*QUICK, "-i", "bdpt", "--vertices", "small"], "--vertices", "full, compact")
 
 
 def test_aov():
