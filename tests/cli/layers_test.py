@@ -55,6 +55,20 @@ def test_channels():
           [*strategies("tech.s0t2", "tech.s0t3"), *colours("tech.rest")], "strategies of `naive`")
 
 
+def test_both_ends():
+    expect(0, ["room.json", "-q", "--spp", "8", "-i", "bdpt", "--aov", "tech,light-vertices",
+               "--aov-length", "3", "-o", "both.exr"])
+    names = ("tech.s0t2", "tech.s0t3", "tech.s1t2", "tech.s2t1", "tech.s0t4", "tech.s1t3",
+             "tech.s2t2", "tech.s3t1")
+    channels = document(["info", "both.exr"])["channels"]
+    check(channels[3:] == [*strategies(*names), *colours("tech.rest"), "light.vertices"],
+          "all of the pyramid", channels)
+    mean = means("both.exr")
+    for name in names:
+        check(mean[name + ".G"] > 0, f"{name} brings something", mean)
+    check(0.01 < mean["light.vertices"] < 10, "vertices per pixel and pass", mean)
+
+
 def test_atlas():
     out, _ = expect(0, [*QUICK, "--atlas", "atlas.png", "-o", "a.exr"])
     check(out.split() == ["a.exr", "atlas.png"], "both are told", out)
@@ -77,7 +91,8 @@ def test_usage():
     for bad in ("0", "31", "-1", "x", "1.5"):
         expect(2, [*QUICK, "--aov", "tech", "--aov-length", bad], "--aov-length")
     expect(2, [*QUICK, "--aov", "lenght"], "Did you mean 'length'?")
-    expect(2, [*QUICK, "--aov", "light-vertices"], "light-vertices", "'path' makes no light vertices")
+    expect(2, [*QUICK, "--aov", "light-vertices"], "'path' makes no light vertices",
+           "light, bdpt")
 
 
 def test_memory():

@@ -61,7 +61,7 @@ TEST(Layers, all_strategies_of_the_pyramid) {
 
 TEST(Layers, a_method_keeps_them_in_the_passes_that_gather) {
   Integrator method;
-  method.passes = {{"walk", {Bundle::scene, Bundle::film, Bundle::diag}, true},
+  method.passes = {{"walk", {Bundle::scene, Bundle::film, Bundle::diag}, Domain::tile, true},
                    {"add", {Bundle::film, Bundle::diag}}};
   method.most_s = 1;
   EXPECT_EQ(with_layers(method, 0, 5).layers, 0u);
