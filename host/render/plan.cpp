@@ -116,7 +116,7 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
                                  options_of(specialisation_));
     state.group = group_for(state.kernel, options_.group);
     if (pass.domain == Domain::sides)
-      state.group = std::min<std::size_t>(state.group, VERTEX_SCAN_GROUP);
+      state.group = std::min<std::size_t>(state.group, SCAN_GROUP);
     bind(state);
     passes_.push_back(std::move(state));
   }

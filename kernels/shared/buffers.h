@@ -48,6 +48,13 @@
   X(uint, eye_last, "[pixels of a slice]")                    \
   X(uint, eye_first, "[pixels of a slice + 1]")               \
   X(uint, eye_order, "[eye capacity]")
+// Light vertices by the cell of space that they lie in. Pairs: (cell, place in light_order).
+#define GRID_BUFFERS(X)                                                                  \
+  X(F4, photons, "positions cell by cell; w: slot, as bits [light capacity]")            \
+  X(uint, grid_pairs, "[light capacity][2]")                                             \
+  X(uint, grid_sorted, "the same, sorted by a digit [light capacity][2]")                \
+  X(uint, grid_digits, "how often each block has each digit [SORT_DIGITS][SORT_BLOCKS]") \
+  X(uint, grid_cells, "first photon of each cell and the one after its last [cells][2]")
 #define VERTEX_COUNT_BUFFERS(X) X(uint, vertex_counts, "slots asked for: light, eye [2]")
 
 #define LAYER_BUFFERS(X) \

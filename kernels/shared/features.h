@@ -37,6 +37,7 @@
   X(INTG_UNIFORM, "directions drawn uniformly, without importance sampling")     \
   X(INTG_SPLAT, "contributions splatted to any pixel")                           \
   X(INTG_CONNECT, "eye and light paths connected at every pair of vertices")     \
+  X(INTG_MERGE, "eye vertices merged with the light vertices around them")       \
   X(INTG_COMPACT, "path vertices in half the bytes")                             \
   X(INTG_LAYERS, "radiance kept apart by path length and strategy")              \
   X(INTG_SOBOL, "Owen-scrambled Sobol points instead of random numbers")         \

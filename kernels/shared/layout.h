@@ -191,8 +191,16 @@ typedef struct Launch {
   uint store_first, store_end;        // those whose vertices are stored
   uint light_capacity, eye_capacity;  // vertices that the buffers hold
   uint gather_first;  // pixel of the tile from which on contributions count; those before are known
+  float radius;       // of merging, world units
+  float merge_scale;  // 1 / (pi radius^2 light paths): from power to radiance
+  float mis_vm;       // [Georgiev12 eq. 11] eta of merging over connecting: pi radius^2 light paths
+  float mis_vc;       // its inverse; either is 0 where its strategies are not used
+  float cell_size;    // of the photon grid, at least 2 radius
+  uint grid_bits;     // it has 2^this cells
+  uint photon_count;  // light vertices in it
+  uint digit;         // of the sort, from 0
 } Launch;
-LAYOUT_CHECK(Launch, 128);
+LAYOUT_CHECK(Launch, 160);
 
 /// A vertex where a sub-path ends and others may connect. Written by light_trace and camera_trace.
 typedef struct PathVertex {

@@ -51,8 +51,28 @@
 /// Survival of roulette in the `reference` method, the same at every surface.
 #define REFERENCE_SURVIVE 0.9f
 
-/// Most work-items of a group of vertex_scan.
-#define VERTEX_SCAN_GROUP 256
+/// The photon sort: a stable radix sort of SORT_PASSES digits, without atomics, in which a
+/// work-item sorts a block of its own.
+#define SORT_DIGIT_BITS 10u
+#define SORT_DIGITS 1024u
+#define SORT_PASSES 2u
+#define SORT_BLOCKS 16u
+
+/// The photon grid has 2^this cells at least and at most: what the sort can tell apart.
+#define GRID_BITS_MIN 6u
+#define GRID_BITS_MAX 20u
+
+/// Photons farther than the radius by rounding are looked for: 2^-20 of it, and 4 roundoffs of the
+/// coordinates.
+#define MERGE_REACH_SCALE 1.00000095367431640625f
+#define MERGE_REACH_ULPS 4.0f
+
+/// Photons merge where their surface faces the same way, within 60 degrees: others lie round a
+/// corner or on the back of a thin wall.
+#define MERGE_COS_MIN 0.5f
+
+/// Most work-items of a group of vertex_scan and grid_scan.
+#define SCAN_GROUP 256
 
 /// Splats count steps of 2^-36 of what the lights' whole power gives a white surface at a distance
 /// of the scene's radius (PackedScene.splat_exponent): dim ones keep 8 bits down to 2^-28 of it.

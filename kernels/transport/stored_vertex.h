@@ -132,6 +132,15 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
 }
 #endif
 
+/// Where a vertex in memory is.
+INLINE real3 stored_position(GLOBAL const StoredVertex* s) {
+#if INTG_COMPACT
+  return REAL3(s->x, s->y, s->z);
+#else
+  return load3(s->p_offset);
+#endif
+}
+
 /// Appends a vertex to the sub-path. Which slot it gets depends on the order of work; which place
 /// in its path does not.
 INLINE void vertex_store(PRIVATE VertexStore* store, PRIVATE const Vertex* v, real3 beta,

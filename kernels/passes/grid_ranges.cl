@@ -1,0 +1,20 @@
+// grid_ranges: where each cell's photons begin and end, and their positions in that order.
+// Reads: light_vertices, light_order, grid_pairs (sorted, after an even number of digits). Writes:
+// grid_cells, photons. Domain: photons. Atomics: none. Next: merge.
+// Flags: INTG_COMPACT.
+#include "passes/bundles.h"
+#include "transport/stored_vertex.h"
+
+__kernel void grid_ranges(LIGHT_VERTEX_PARAMS GRID_PARAMS const Launch launch) {
+  uint i = (uint)get_global_id(0);
+  if (i >= launch.photon_count) return;
+  __global const uint* pairs = grid_pairs;
+  uint key = pairs[2 * (size_t)i];
+  if (i == 0u || pairs[2 * (size_t)i - 2u] != key) grid_cells[2 * key] = i;
+  if (i + 1u == launch.photon_count || pairs[2 * (size_t)i + 2u] != key)
+    grid_cells[2 * key + 1u] = i + 1u;
+  uint slot = light_order[pairs[2 * (size_t)i + 1u]];
+  __global const StoredVertex* vertices = (__global const StoredVertex*)light_vertices;
+  real3 p = stored_position(&vertices[slot]);
+  photons[i] = (F4)(p.x, p.y, p.z, as_float(slot));
+}
