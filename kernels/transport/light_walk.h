@@ -13,18 +13,38 @@ typedef struct LightWalk {
   uint depth;  // segments so far
 } LightWalk;
 
-INLINE LightWalk light_walk_start(PRIVATE const SceneData* scene, Rng rng) {
+INLINE LightWalk light_walk_from(EmitSample start) {
   LightWalk w;
-  w.start = light_emit(scene, rng_words(rng, DIM_EMIT_POINT), rng4(rng, DIM_EMIT_DIRECTION));
+  w.start = start;
   w.walk = walk_start(w.start.ray, w.start.beta);
   w.walk.p_prev = w.start.p;
   w.depth = 0u;
 #if INTG_CONNECT
   if (!w.start.delta && w.start.pdf > REAL(0.0))
-    w.walk.partials.dVC = w.start.cos_light / w.start.pdf;
+    w.walk.partials = partials_start(REAL(0.0), w.start.cos_light / w.start.pdf);
 #endif
   return w;
 }
+
+INLINE LightWalk light_walk_start(PRIVATE const SceneData* scene, Rng rng) {
+  return light_walk_from(
+      light_emit(scene, rng_words(rng, DIM_EMIT_POINT), rng4(rng, DIM_EMIT_DIRECTION)));
+}
+
+#if INTG_CONNECT
+/// The walk has come to the vertex, the last of `depth` segments.
+INLINE void light_walk_arrive(PRIVATE const SceneData* scene, PRIVATE LightWalk* w,
+                              PRIVATE const Vertex* v) {
+  if (w->depth == 1u) {
+    // Only here is NEE's density known: it may depend on where it looks from.
+    real nee = emit_pdf_nee(scene, &w->start, v->surface.p);
+    real dVC = partials_dVC(w->walk.partials) / v->cos_wo;
+    w->walk.partials = partials_start(nee / (w->start.pdf * v->cos_wo), dVC);
+  } else {
+    walk_arrive(v, &w->walk);
+  }
+}
+#endif
 
 /// Traces the next segment. 0: it ends on nothing that scatters.
 INLINE int light_walk_next(PRIVATE const SceneData* scene, PRIVATE LightWalk* w,
@@ -37,14 +57,7 @@ INLINE int light_walk_next(PRIVATE const SceneData* scene, PRIVATE LightWalk* w,
   *v = vertex_at(scene, surface_at(scene, w->walk.ray, hit), -w->walk.ray.d, 1);
   if (v->black) return 0;
 #if INTG_CONNECT
-  if (w->depth == 1u) {
-    // Only here is NEE's density known: it may depend on where it looks from.
-    real nee = emit_pdf_nee(scene, &w->start, v->surface.p);
-    w->walk.partials.dVCM = nee / (w->start.pdf * v->cos_wo);
-    w->walk.partials.dVC = w->walk.partials.dVC / v->cos_wo;
-  } else {
-    walk_arrive(v, &w->walk);
-  }
+  light_walk_arrive(scene, w, v);
 #endif
   return 1;
 }

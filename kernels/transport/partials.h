@@ -10,7 +10,7 @@
 #include "shared/layout.h"
 
 /// What a sub-path knows of the strategies that would have drawn its vertices from the other end.
-/// dVC is a sum over all its vertices: along the way it may leave the range of float and come back.
+/// dVC is a sum over all its vertices, so it may leave the range of float on the way and come back.
 typedef struct Partials {
   real dVCM;
   real dVC_scaled;  // dVC over 2^(64 scale)
@@ -28,14 +28,14 @@ INLINE Partials partials_start(real dVCM, real dVC) {
   return q;
 }
 
-/// dVC, or the largest number: next to that no strategy whose densities are numbers has weight.
+/// dVC at the end of a sub-path, cut at the largest number: what is left of a strategy against it
+/// is nothing.
 INLINE real partials_dVC(Partials q) {
   if (q.scale == 0u) return q.dVC_scaled;
   return q.scale == 1u ? r_min(q.dVC_scaled * PARTIALS_SCALE, REAL_MAX) : REAL_MAX;
 }
 
-/// Moves dVC to the middle of the range of float. What is small stays at scale 0: against dVCM, to
-/// which it will be added, it may vanish.
+/// Keeps dVC within the range of float. At scale 0 it may well vanish: it will be added to dVCM.
 INLINE void partials_rescale(PRIVATE Partials* q) {
   if (q->dVC_scaled > PARTIALS_SCALE) {
     q->dVC_scaled = r_min(q->dVC_scaled, REAL_MAX) * PARTIALS_SCALE_INV;
@@ -77,7 +77,7 @@ INLINE void partials_arrive(PRIVATE Partials* q, real distance2, real cos_g) {
 INLINE void partials_scatter(uint heuristic, PRIVATE Partials* q, real forward, real reverse,
                              real cos_g) {
   real inv = REAL(1.0) / forward;
-  real vcm = q->dVCM;
+  real vcm = q->dVCM;  // over 2^(64 scale)
   if (q->scale > 0u) vcm = q->scale == 1u ? vcm * PARTIALS_SCALE_INV : REAL(0.0);
   real before = partial_sum(heuristic, q->dVC_scaled * reverse, vcm);
   q->dVC_scaled = before * cos_g * inv;

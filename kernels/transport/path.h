@@ -19,7 +19,8 @@ INLINE real chance_weight(Launch launch, PRIVATE const Walk* walk, uint depth, r
 #if INTG_CONNECT
   // Quantities from before the arrival: its distance and cosine cancel against the light's side.
   if (depth == 1u) return REAL(1.0);
-  return partial_weight(launch.mis, pdf_light * walk->partials.dVCM, emit * walk->partials.dVC);
+  return partial_weight(launch.mis, pdf_light * walk->partials.dVCM,
+                        emit * partials_dVC(walk->partials));
 #elif INTG_MIS
   return walk->pdf_w == REAL(0.0) ? REAL(1.0) : mis_weight(launch.mis, walk->pdf_w, pdf_light, 0);
 #elif INTG_NEE
@@ -68,6 +69,24 @@ INLINE void walk_emission(PRIVATE const SceneData* scene, Launch launch, PRIVATE
 #endif
 }
 
+/// Weight of the light sample `light` from the vertex, whose BSDF says `e` towards it.
+INLINE real nee_weight(PRIVATE const SceneData* scene, Launch launch, PRIVATE const Vertex* v,
+                       PRIVATE const Walk* walk, PRIVATE const LightSample* light, BsdfEval e) {
+#if INTG_CONNECT
+  real survive = (real)v->material.survive;
+  real by_chance = light->delta ? REAL(0.0) : e.pdf_w * survive / light->pdf_w;
+  real cos_g = r_abs(dot3(v->surface.ng, light->wi));
+  return partial_weight(launch.mis, by_chance,
+                        partials_end(launch.mis, walk->partials, light->emit * cos_g,
+                                     vertex_pdf_reverse(scene, v, light->wi) * survive));
+#elif INTG_MIS
+  if (light->delta) return REAL(1.0);
+  return mis_weight(launch.mis, light->pdf_w, e.pdf_w * (real)v->material.survive, 1);
+#else
+  return REAL(1.0);
+#endif
+}
+
 /// Next event estimation: one light sample from the vertex.
 INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uint bounce,
                      PRIVATE const Vertex* v, PRIVATE Walk* walk) {
@@ -87,17 +106,7 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
   shadow.aim = light.aim;
   ++walk->rays;
   if (bvh_trace(scene, shadow, 1).prim != NONE) return;
-  real w = REAL(1.0);
-#if INTG_CONNECT
-  real survive = (real)v->material.survive;
-  real by_chance = light.delta ? REAL(0.0) : e.pdf_w * survive / light.pdf_w;
-  real cos_g = r_abs(dot3(v->surface.ng, light.wi));
-  w = partial_weight(launch.mis, by_chance,
-                     partials_end(launch.mis, walk->partials, light.emit * cos_g,
-                                  vertex_pdf_reverse(scene, v, light.wi) * survive));
-#elif INTG_MIS
-  if (!light.delta) w = mis_weight(launch.mis, light.pdf_w, e.pdf_w * (real)v->material.survive, 1);
-#endif
+  real w = nee_weight(scene, launch, v, walk, &light, e);
   walk_gather(walk, walk->beta * e.f * light.radiance * (cos_wi / light.pdf_w), w, 1u, bounce + 2u);
 #endif
 }
@@ -112,7 +121,7 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
                            PRIVATE VertexStore* store, PRIVATE uint* rays) {
   Walk walk = walk_start(camera_ray, REAL3(1.0f, 1.0f, 1.0f));
 #if INTG_CONNECT
-  walk.partials.dVCM = (real)launch.light_paths / pdf_camera;
+  walk.partials = partials_start((real)launch.light_paths / pdf_camera, REAL(0.0));
 #endif
 #if INTG_LAYERS
   walk.layers = layers;

@@ -51,7 +51,7 @@ INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q,
   s.wo = octahedral_pack(to_world(v->frame, v->context.wo));
   s.beta = rgbe_pack(beta);
   s.dVCM = float24_pack((float)q.dVCM) | (depth & 0xffu);
-  s.dVC = float24_pack((float)q.dVC) | (depth >> 8);
+  s.dVC = float24_pack((float)partials_dVC(q)) | (depth >> 8);
 #if FEAT_TEXTURE
   s.uv = half_pack((float)v->surface.u) | (half_pack((float)v->surface.v) << 16);
 #else
@@ -76,8 +76,8 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
 #endif
   e.v = vertex_at(scene, surface, octahedral_unpack(s.wo), importance);
   e.beta = rgbe_unpack(s.beta);
-  e.partials.dVCM = (real)float_from_bits(s.dVCM & 0xffffff00u);
-  e.partials.dVC = (real)float_from_bits(s.dVC & 0xffffff00u);
+  e.partials = partials_start((real)float_from_bits(s.dVCM & 0xffffff00u),
+                              (real)float_from_bits(s.dVC & 0xffffff00u));
   e.depth = (s.dVCM & 0xffu) | ((s.dVC & 0xffu) << 8);
   return e;
 }
@@ -102,7 +102,7 @@ INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q,
   s.ng_u = to_f4(v->surface.ng, tex_u);
   s.ns_v = to_f4(v->surface.ns, tex_v);
   s.wo_dVCM = to_f4(to_world(v->frame, v->context.wo), q.dVCM);
-  s.beta_dVC = to_f4(beta, q.dVC);
+  s.beta_dVC = to_f4(beta, partials_dVC(q));
   s.material = v->surface.material;
   s.flags = v->surface.flags;
   s.depth = depth;
@@ -125,8 +125,7 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
 #endif
   e.v = vertex_at(scene, surface, load3(s.wo_dVCM), importance);
   e.beta = load3(s.beta_dVC);
-  e.partials.dVCM = (real)s.wo_dVCM.w;
-  e.partials.dVC = (real)s.beta_dVC.w;
+  e.partials = partials_start((real)s.wo_dVCM.w, (real)s.beta_dVC.w);
   e.depth = s.depth;
   return e;
 }

@@ -34,7 +34,7 @@ INLINE Walk walk_start(Ray ray, real3 beta) {
   walk.p_prev = ray.o;
   walk.pdf_w = REAL(0.0);
 #if INTG_CONNECT
-  walk.partials.dVCM = walk.partials.dVC = REAL(0.0);
+  walk.partials = partials_start(REAL(0.0), REAL(0.0));
 #endif
   walk.rays = 0;
   return walk;
@@ -44,6 +44,27 @@ INLINE Walk walk_start(Ray ray, real3 beta) {
 INLINE uint depth_limit(Launch launch) {
   return launch.max_depth < DEPTH_HARD_LIMIT ? launch.max_depth : DEPTH_HARD_LIMIT;
 }
+
+#if INTG_CONNECT
+/// The walk has come to the vertex.
+INLINE void walk_arrive(PRIVATE const Vertex* v, PRIVATE Walk* walk) {
+  real3 d = v->surface.p - walk->p_prev;
+  partials_arrive(&walk->partials, dot3(d, d), v->cos_wo);
+}
+
+/// It leaves the vertex by the sample drawn there.
+INLINE void walk_leave(PRIVATE const SceneData* scene, Launch launch, PRIVATE const Vertex* v,
+                       BsdfSample s, PRIVATE Walk* walk) {
+  real cos_g = r_abs(dot3(v->surface.ng, s.wi));
+  if (s.delta) {
+    partials_scatter_delta(&walk->partials, s.reverse, cos_g);
+  } else {
+    real survive = (real)v->material.survive;
+    real reverse = vertex_pdf_reverse(scene, v, s.wi) * survive;
+    partials_scatter(launch.mis, &walk->partials, s.pdf_w * survive, reverse, cos_g);
+  }
+}
+#endif
 
 /// Scatters at the vertex: roulette by the material's own survival probability (local, so that a
 /// walk from the other end knows it too), then a direction by the numbers of `dimension`. 0 ends
@@ -66,27 +87,13 @@ INLINE int walk_scatter(PRIVATE const SceneData* scene, Launch launch, Rng rng, 
   walk->beta *= s.weight * (REAL(1.0) / survive);
   walk->pdf_w = s.delta ? REAL(0.0) : s.pdf_w * survive;
 #if INTG_CONNECT
-  real cos_g = r_abs(dot3(v->surface.ng, s.wi));
-  if (s.delta) {
-    partials_scatter_delta(&walk->partials, s.reverse, cos_g);
-  } else {
-    real reverse = vertex_pdf_reverse(scene, v, s.wi) * survive;
-    partials_scatter(launch.mis, &walk->partials, walk->pdf_w, reverse, cos_g);
-  }
+  walk_leave(scene, launch, v, s, walk);
 #endif
   walk->p_prev = v->surface.p;
   walk->ray.o = spawn_origin(v->surface.p, v->surface.ng, v->surface.offset, s.wi);
   walk->ray.d = s.wi;
   return 1;
 }
-
-#if INTG_CONNECT
-/// The walk has come to the vertex.
-INLINE void walk_arrive(PRIVATE const Vertex* v, PRIVATE Walk* walk) {
-  real3 d = v->surface.p - walk->p_prev;
-  partials_arrive(&walk->partials, dot3(d, d), v->cos_wo);
-}
-#endif
 
 /// Ray from the surface towards `target`, a point that already clears what it lies on, along about
 /// `wi`. 0: it would have no length.
