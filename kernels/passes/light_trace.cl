@@ -27,8 +27,9 @@ INLINE void splat_vertex(PRIVATE const SceneData* scene, Launch launch, Camera c
   x = (int)floor(link.at.x);
   y = (int)floor(link.at.y);
 #endif
+  if (!film_in_window(launch, x, y)) return;
+  ++w->walk.rays;  // though another band may be the one to trace it
   if (!film_in_tile(launch, x, y)) return;
-  ++w->walk.rays;
   if (bvh_trace(scene, link.ray, 1).prim != NONE) return;
   real3 value = link.value * (link.weight * weight);
   film_splat(splats, scene->diag, launch, x, y, value.x, value.y, value.z);
