@@ -55,6 +55,13 @@ INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, Launch l
 
 #if PELLUCID_DEVICE
 
+/// Whether the rendered part of the picture has pixel (x, y) of the whole.
+INLINE int film_in_window(Launch launch, int x, int y) {
+  return x >= (int)launch.window_x && y >= (int)launch.window_y &&
+         x < (int)(launch.window_x + launch.window_width) &&
+         y < (int)(launch.window_y + launch.window_height);
+}
+
 /// Whether the tile has pixel (x, y) of the whole picture.
 INLINE int film_in_tile(Launch launch, int x, int y) {
   return x >= (int)launch.tile_x && y >= (int)launch.tile_y &&
