@@ -10,6 +10,7 @@ const std::vector<Integrator>& integrators() {
   static const std::vector<Integrator> table = [] {
     std::vector<Integrator> all = path_integrators();
     for (const Integrator& i : bidirectional_integrators()) all.push_back(i);
+    for (const Integrator& i : merging_integrators()) all.push_back(i);
     return all;
   }();
   return table;

@@ -21,5 +21,7 @@ inline const char* default_integrator() {
 std::vector<Integrator> path_integrators();
 /// bidir.cpp: light, bdpt.
 std::vector<Integrator> bidirectional_integrators();
+/// merging.cpp: sppm, vcm.
+std::vector<Integrator> merging_integrators();
 
 }  // namespace pellucid

@@ -164,6 +164,8 @@ void flatten(const Material& m, double weight,
       throw InternalError("a mix has no lobes of its own");
   }
   out.lobes = lobes_of(out.kind);
+  if (out.kind == MATERIAL_ROUGH_CONDUCTOR || out.kind == MATERIAL_ROUGH_DIELECTRIC)
+    out.lobes |= out.alpha < ALPHA_GATHER ? LOBE_NARROW : 0u;
   out.weight = 1.0f;
   return out;
 }
@@ -185,13 +187,16 @@ void pack_materials(const std::vector<Material>& materials, PackedScene& out) {
     mix.first_part = uint(out.materials.size());
     mix.part_count = uint(parts.size());
     double survives = 0.0;
+    bool wide = false;
     for (const auto& [part, weight] : parts) {
       ::Material packed = pack_material(*part, out.features);
       packed.weight = float(weight);
+      wide |= (packed.lobes & (LOBE_SPREAD | LOBE_NARROW)) == LOBE_SPREAD;
       mix.lobes |= packed.lobes;
       survives += weight * packed.survive;
       out.materials.push_back(packed);
     }
+    if (wide) mix.lobes &= ~LOBE_NARROW;
     mix.survive = survive(survives);
     out.materials[i] = mix;
     out.features.set(FEAT_MIX);

@@ -19,6 +19,7 @@ enum class Bundle {
   light_vertices,
   eye_vertices,
   vertex_counts,
+  grid,
   aov,
   layers,
   diag
@@ -26,13 +27,16 @@ enum class Bundle {
 
 /// What a pass has one work-item for. Tiles are cut into slices, rows of pixels with the light
 /// paths that go with them, so that vertices of sub-paths need little memory. Passes over slices
-/// come first, one slice after another; then those over the tile.
+/// come first, one slice after another; then those over the tile. Where vertices are merged, every
+/// slice needs those of all light paths: what stands before camera_trace then runs once, for all.
 enum class Domain {
   tile,         ///< pixels of the tile
   slice,        ///< pixels of the slice
   light_paths,  ///< light paths of the slice
   sub_paths,    ///< light paths and pixels of the slice
   sides,        ///< two work-groups: the light's side and the eye's
+  photons,      ///< light vertices, or cells of the grid if these are more
+  blocks,       ///< blocks of the photon sort
 };
 
 /// One kernel per iteration. `name` is the file passes/<name>.cl, its kernel, its timer and its row
@@ -42,6 +46,7 @@ struct Pass {
   std::vector<Bundle> bundles;  ///< parameters before the launch struct
   Domain domain = Domain::tile;
   bool gathers = false;  ///< adds to layers, where they are asked for
+  uint digit = 0;        ///< of the photon sort
 };
 
 struct Integrator {

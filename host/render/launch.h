@@ -13,6 +13,13 @@ namespace pellucid {
 Launch make_launch(const PackedScene& scene, int width, int height, const Window& window,
                    uint light_paths = 0);
 
+/// Radius of merging in the first pass where none is asked for: with that many light paths over the
+/// scene's extent.
+double default_radius(const PackedScene& scene, uint light_paths);
+
+/// What merging needs to know in launch.iteration, which alone decides on the radius.
+void set_merging(Launch& launch, double first_radius, double alpha, uint grid_bits);
+
 /// The launch for one tile.
 void set_tile(Launch& launch, const Window& tile);
 

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "render/plan.h"
 #include "shared/buffers.h"
+#include "shared/limits.h"
 
 namespace pellucid {
 namespace {
@@ -40,11 +41,11 @@ std::uint64_t host_memory() {
 }
 
 /// Buffers of one side's vertices.
-void add_vertices(const PlanOptions& options, const std::string& side, std::size_t paths,
-                  std::map<std::string, std::size_t>& bytes) {
+void add_vertices(const Integrator& integrator, const PlanOptions& options, const std::string& side,
+                  std::size_t paths, std::map<std::string, std::size_t>& bytes) {
   const std::size_t capacity = std::size_t(double(paths) * options.vertices_per_path) + 1;
-  bytes[side + "_vertices"] = capacity * vertex_bytes(options);
-  bytes[side + "_order"] = capacity * sizeof(uint);
+  for (const auto& [name, each] : vertex_buffers(integrator, options, side))
+    bytes[name] = capacity * each;
   bytes[side + "_last"] = paths * sizeof(uint);
   bytes[side + "_first"] = (paths + 1) * sizeof(uint);
 }
@@ -84,8 +85,22 @@ std::size_t slice_paths(const RenderOptions& options, std::size_t slice_pixels) 
   return std::size_t(spanned * ratio) + 2;
 }
 
-std::size_t vertex_bytes(const PlanOptions& options) {
-  return options.compact_vertices ? sizeof(CompactVertex) : sizeof(PathVertex);
+std::map<std::string, std::size_t> vertex_buffers(const Integrator& integrator,
+                                                  const PlanOptions& options,
+                                                  const std::string& side) {
+  std::map<std::string, std::size_t> bytes;
+  bytes[side + "_vertices"] = options.compact_vertices ? sizeof(CompactVertex) : sizeof(PathVertex);
+  bytes[side + "_order"] = sizeof(uint);
+  if (side != "light" || !integrator.uses(Bundle::grid)) return bytes;
+  bytes["photons"] = sizeof(F4);
+  bytes["grid_pairs"] = bytes["grid_sorted"] = 2 * sizeof(uint);
+  return bytes;
+}
+
+uint grid_bits_for(const RenderOptions& options) {
+  uint bits = GRID_BITS_MIN;
+  while (bits < GRID_BITS_MAX && std::uint64_t{1} << bits < options.light_path_count()) ++bits;
+  return bits;
 }
 
 std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
@@ -107,8 +122,16 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
   if (integrator.uses(Bundle::splat)) bytes["splats"] = pixels * SPLAT_WORDS * sizeof(uint);
   const std::size_t slice = slice_rows(row_pixels, rows) * row_pixels;
   if (integrator.uses(Bundle::light_vertices))
-    add_vertices(options.plan, "light", slice_paths(options, slice), bytes);
-  if (integrator.uses(Bundle::eye_vertices)) add_vertices(options.plan, "eye", slice, bytes);
+    add_vertices(
+        integrator, options.plan, "light",
+        integrator.uses(Bundle::grid) ? options.light_path_count() : slice_paths(options, slice),
+        bytes);
+  if (integrator.uses(Bundle::eye_vertices))
+    add_vertices(integrator, options.plan, "eye", slice, bytes);
+  if (integrator.uses(Bundle::grid)) {
+    bytes["grid_digits"] = SORT_DIGITS * SORT_BLOCKS * sizeof(uint);
+    bytes["grid_cells"] = (std::size_t{2} << grid_bits_for(options)) * sizeof(uint);
+  }
   if (integrator.uses(Bundle::vertex_counts)) bytes["vertex_counts"] = 2 * sizeof(uint);
   if (integrator.uses(Bundle::layers)) bytes["layers"] = pixels * layer_bytes(integrator.layers);
   return bytes;

@@ -34,8 +34,13 @@ uint slice_rows(std::size_t row_pixels, std::size_t tile_rows);
 /// are paired with.
 std::size_t slice_paths(const RenderOptions& options, std::size_t slice_pixels);
 
-/// Bytes of one vertex of a sub-path in memory.
-std::size_t vertex_bytes(const PlanOptions& options);
+/// Buffers that have a place for every vertex of a side ("light" or "eye"), and its bytes.
+std::map<std::string, std::size_t> vertex_buffers(const Integrator& integrator,
+                                                  const PlanOptions& options,
+                                                  const std::string& side);
+
+/// Cells of the photon grid, as a power of two: about as many as light paths.
+uint grid_bits_for(const RenderOptions& options);
 
 /// Name and size of every device buffer that rendering `scene` with `integrator` needs at first for
 /// a tile of so many rows.

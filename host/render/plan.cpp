@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "render/launch.h"
 #include "render/memory.h"
 #include "shared/buffers.h"
 #include "shared/limits.h"
@@ -26,6 +27,8 @@ std::vector<std::string> bundle_buffers(Bundle bundle) {
       return {EYE_VERTEX_BUFFERS(PELLUCID_NAME)};
     case Bundle::vertex_counts:
       return {VERTEX_COUNT_BUFFERS(PELLUCID_NAME)};
+    case Bundle::grid:
+      return {GRID_BUFFERS(PELLUCID_NAME)};
     case Bundle::aov:
       return {AOV_BUFFERS(PELLUCID_NAME)};
     case Bundle::layers:
@@ -98,12 +101,16 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
       tile_pixels_(memory.tile_pixels()),
       memory_limit_(memory.limit),
       slice_rows_(memory.slice_rows),
+      merges_(integrator.uses(Bundle::grid)),
+      first_radius_(options.radius.value_or(default_radius(scene, options.light_path_count()))),
+      radius_alpha_(options.radius_alpha),
+      grid_bits_(grid_bits_for(options)),
       buffers_(upload_scene(device_, scene)) {
   for (const auto& [name, size] : memory.buffers)
     if (!buffers_.count(name)) buffers_[name] = device_.create_buffer(name, size);
   if (integrator.uses(Bundle::vertex_counts))
     for (const auto& [side, trace] : {std::pair{"light", "light_trace"}, {"eye", "camera_trace"}})
-      sides_.push_back({side, trace,
+      sides_.push_back({side, trace, vertex_buffers(integrator, options_, side),
                         buffers_.at(side + std::string("_last")).bytes() / sizeof(uint),
                         buffers_.at(side + std::string("_order")).bytes() / sizeof(uint)});
   const KernelFiles files(options_.kernel_dir);
@@ -115,8 +122,7 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
     state.kernel = device_.build(pass.name, files.expand("passes/" + pass.name + ".cl", prelude),
                                  options_of(specialisation_));
     state.group = group_for(state.kernel, options_.group);
-    if (pass.domain == Domain::sides)
-      state.group = std::min<std::size_t>(state.group, SCAN_GROUP);
+    if (pass.domain == Domain::sides) state.group = std::min<std::size_t>(state.group, SCAN_GROUP);
     bind(state);
     passes_.push_back(std::move(state));
   }
@@ -148,7 +154,8 @@ void Plan::warm_up() {
   device_.finish();
 }
 
-void Plan::launch(PassState& state, const Launch& launch) {
+void Plan::launch(PassState& state, Launch launch) {
+  launch.digit = state.pass.digit;
   std::size_t domain = 0;
   switch (state.pass.domain) {
     case Domain::tile:
@@ -162,6 +169,12 @@ void Plan::launch(PassState& state, const Launch& launch) {
       break;
     case Domain::sub_paths:
       domain = std::size_t(launch.path_count) + launch.slice_count;
+      break;
+    case Domain::photons:
+      domain = std::max<std::size_t>(launch.photon_count, std::size_t{1} << launch.grid_bits);
+      break;
+    case Domain::blocks:
+      domain = SORT_BLOCKS;
       break;
     case Domain::sides:
       domain = 2 * state.group;
@@ -177,12 +190,15 @@ PassState& Plan::pass_named(const std::string& name) {
   throw InternalError("no pass is called " + name);
 }
 
-void Plan::enqueue(const Launch& launch) {
+void Plan::enqueue(Launch launch) {
   const std::size_t pixels = std::size_t(launch.tile_width) * launch.tile_height;
   PELLUCID_CHECK(pixels <= tile_pixels_, "a tile fits the buffers");
   if (sides_.empty())
     run_whole(launch);
-  else
+  else if (merges_) {
+    set_merging(launch, first_radius_, radius_alpha_, grid_bits_);
+    run_merging(launch);
+  } else
     run_slices(launch);
   for (PassState& state : passes_)
     if (state.pass.domain == Domain::tile) this->launch(state, launch);

@@ -56,7 +56,7 @@ class Plan {
 
   /// Enqueues one iteration over the launch's tile; methods that store vertices wait for parts of
   /// it. Throws DeviceError where those of one row of pixels exceed memory.
-  void enqueue(const Launch& launch);
+  void enqueue(Launch launch);
   void finish() { device_.finish(); }
 
   /// The first `pixels` of the tile's film.
@@ -75,23 +75,32 @@ class Plan {
  private:
   /// One side's vertices of sub-paths.
   struct Side {
-    std::string name;          ///< in front of its buffers' names
-    std::string trace;         ///< the pass that makes them
-    std::size_t paths = 0;     ///< most of a launch
-    std::size_t capacity = 0;  ///< vertices
+    std::string name;                               ///< in front of its buffers' names
+    std::string trace;                              ///< the pass that makes them
+    std::map<std::string, std::size_t> per_vertex;  ///< bytes by buffer
+    std::size_t paths = 0;                          ///< most of a launch
+    std::size_t capacity = 0;                       ///< vertices
+    std::size_t bytes() const {
+      std::size_t sum = 0;
+      for (const auto& [buffer, each] : per_vertex) sum += each;
+      return sum;
+    }
   };
 
   void bind(PassState& state);
   void warm_up();
-  void launch(PassState& state, const Launch& launch);
+  void launch(PassState& state, Launch launch);
   PassState& pass_named(const std::string& name);
   // plan_slices.cpp
   void run_slices(Launch launch);
+  void run_merging(Launch launch);
+  void run_slice_passes(const Launch& launch, bool light_stage);
   void run_whole(Launch launch);
   void splat_paths(Launch launch, uint first, uint end);
   bool traces_side(const Pass& pass) const;
   std::array<uint, 2> take_vertex_counts();
   bool settle_vertices(Launch launch);
+  uint settle_light(Launch launch);
   bool make_room(const std::array<uint, 2>& needed);
   void resize(const std::array<std::size_t, 2>& capacity);
 
@@ -102,7 +111,10 @@ class Plan {
   ::Camera camera_;
   std::size_t tile_pixels_;
   std::uint64_t memory_limit_;
-  uint slice_rows_ = 1;      ///< fewer where vertices would exceed memory
+  uint slice_rows_ = 1;  ///< fewer where vertices would exceed memory
+  bool merges_;          ///< needs the vertices of all light paths at once
+  double first_radius_, radius_alpha_;
+  uint grid_bits_;
   std::vector<Side> sides_;  ///< light, eye; empty for methods that store none
   std::map<std::string, Buffer> buffers_;
   std::vector<PassState> passes_;

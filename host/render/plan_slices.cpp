@@ -77,12 +77,63 @@ void Plan::run_slices(Launch launch) {
       slice_rows_ = rows / 2;  // what was splatted and gathered stays; the rest is done again
       continue;
     }
-    for (PassState& state : passes_)
-      if (state.pass.domain != Domain::tile && !traces_side(state.pass))
-        this->launch(state, launch);
+    run_slice_passes(launch, true);
+    run_slice_passes(launch, false);
     row += rows;
   }
   splat_paths(launch, splatted, launch.light_paths);
+}
+
+/// Passes over slices that trace nothing: those before camera_trace, or those after it.
+void Plan::run_slice_passes(const Launch& launch, bool light_stage) {
+  bool before = true;
+  for (PassState& state : passes_) {
+    if (state.pass.name == sides_[1].trace) before = false;
+    if (state.pass.domain != Domain::tile && !traces_side(state.pass) && before == light_stage)
+      this->launch(state, launch);
+  }
+}
+
+/// Methods that merge: all light paths and their grid first, then the slices.
+void Plan::run_merging(Launch launch) {
+  launch.path_count = launch.splat_end = launch.store_end = launch.light_paths;
+  launch.light_capacity = uint(sides_[0].capacity);
+  this->launch(pass_named(sides_[0].trace), launch);
+  launch.photon_count = settle_light(launch);
+  launch.light_capacity = uint(sides_[0].capacity);
+  run_slice_passes(launch, true);
+  launch.path_count = 0;  // scan and order leave the light's side alone
+  for (uint row = 0; row < launch.tile_height;) {
+    const uint rows = std::min(slice_rows_, launch.tile_height - row);
+    launch.slice_first = row * launch.tile_width;
+    launch.slice_count = rows * launch.tile_width;
+    launch.eye_capacity = uint(sides_[1].capacity);
+    this->launch(pass_named(sides_[1].trace), launch);
+    launch.gather_first = std::max(launch.gather_first, launch.slice_first + launch.slice_count);
+    if (!settle_vertices(launch)) {
+      slice_rows_ = rows / 2;
+      continue;
+    }
+    run_slice_passes(launch, false);
+    row += rows;
+  }
+}
+
+/// Waits for the vertices of all light paths, with room for them, and tells their number.
+uint Plan::settle_light(Launch launch) {
+  const uint count = take_vertex_counts()[0];
+  if (count <= sides_[0].capacity) return count;
+  if (!make_room({count, 0}))
+    throw DeviceError(fmt::format(
+        "the {} vertices of this iteration's light paths are merged all at once and need {}, more "
+        "than is left of {} on {}; allow more with --memory, or try --vertices compact, "
+        "--max-depth, or fewer --light-paths",
+        count, format_bytes(count * sides_[0].bytes()), format_bytes(memory_limit_),
+        device_.info().name));
+  launch.splat_first = launch.splat_end = 0;
+  launch.light_capacity = uint(sides_[0].capacity);
+  this->launch(pass_named(sides_[0].trace), launch);
+  return take_vertex_counts()[0];
 }
 
 /// Vertices that the traces asked room for since the last call, by side; waits for them.
@@ -98,13 +149,13 @@ std::array<uint, 2> Plan::take_vertex_counts() {
 /// Waits for the slice's vertices; where they did not all find room, makes it and traces again,
 /// without what has been splatted and gathered already. False: the slice is too large.
 bool Plan::settle_vertices(Launch launch) {
-  const std::array<uint, 2> counts = take_vertex_counts();
+  std::array<uint, 2> counts = take_vertex_counts();
+  if (merges_) counts[0] = uint(sides_[0].capacity);  // they stay where they are
   const std::array<std::size_t, 2> before{sides_[0].capacity, sides_[1].capacity};
   if (counts[0] <= before[0] && counts[1] <= before[1]) return true;
   if (!make_room(counts)) {
     if (launch.slice_count > launch.tile_width) return false;
-    const std::uint64_t bytes =
-        (std::uint64_t(counts[0]) + counts[1]) * (vertex_bytes(options_) + sizeof(uint));
+    const std::uint64_t bytes = counts[0] * sides_[0].bytes() + counts[1] * sides_[1].bytes();
     throw DeviceError(fmt::format(
         "the vertices of one row of pixels need {}, more than is left of {} on {}; allow more "
         "with --memory, or try --vertices compact, --max-depth, or fewer --light-paths",
@@ -124,10 +175,9 @@ bool Plan::settle_vertices(Launch launch) {
 /// exactly, or else at the cost of what the other side has too much.
 bool Plan::make_room(const std::array<uint, 2>& needed) {
   constexpr double spare = 1.25;  // iterations differ: growing anew in each would cost more
-  const std::size_t vertex = vertex_bytes(options_);
   std::uint64_t others = 0;
   for (const auto& [name, buffer] : buffers_) others += buffer.bytes();
-  for (const Side& side : sides_) others -= side.capacity * (vertex + sizeof(uint));
+  for (const Side& side : sides_) others -= side.capacity * side.bytes();
   std::array<std::size_t, 2> grown{}, exact{}, least{};
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const std::size_t has = sides_[i].capacity;
@@ -136,9 +186,13 @@ bool Plan::make_room(const std::array<uint, 2>& needed) {
     grown[i] = needed[i] > has ? std::size_t(double(needed[i]) * spare) : has;
   }
   for (const auto& capacity : {grown, exact, least}) {
-    const std::uint64_t all = capacity[0] + capacity[1];
-    if (std::max(capacity[0], capacity[1]) * vertex > device_.info().max_buffer) continue;
-    if (others + all * (vertex + sizeof(uint)) > memory_limit_) continue;
+    std::uint64_t all = others, largest = 0;
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      all += capacity[i] * sides_[i].bytes();
+      for (const auto& [name, each] : sides_[i].per_vertex)
+        largest = std::max<std::uint64_t>(largest, capacity[i] * each);
+    }
+    if (all > memory_limit_ || largest > device_.info().max_buffer) continue;
     resize(capacity);
     return true;
   }
@@ -152,13 +206,11 @@ void Plan::resize(const std::array<std::size_t, 2>& capacity) {
     for (PassState& state : passes_) bind(state);
   };
   each([&](Side& side, std::size_t) {  // lets go of the old ones first
-    buffers_[side.name + "_vertices"] = buffers_[side.name + "_order"] =
-        buffers_.at("vertex_counts");
+    for (const auto& [name, bytes] : side.per_vertex) buffers_[name] = buffers_.at("vertex_counts");
   });
   each([&](Side& side, std::size_t n) {
-    const std::string vertices = side.name + "_vertices", order = side.name + "_order";
-    buffers_[vertices] = device_.create_buffer(vertices, n * vertex_bytes(options_));
-    buffers_[order] = device_.create_buffer(order, n * sizeof(uint));
+    for (const auto& [name, bytes] : side.per_vertex)
+      buffers_[name] = device_.create_buffer(name, n * bytes);
     side.capacity = n;
   });
 }

@@ -54,6 +54,12 @@ INLINE void layer_add(LayerSink sink, real3 value, real weight, uint s, uint dep
     layer_put(sink, layer_of_unweighted(sink.set, s, depth), value);
 }
 
+/// Adds what a merge found as a path of `depth` segments: strategies by merging have no layers.
+INLINE void layer_merge(LayerSink sink, real3 value, real weight, uint depth) {
+  if (layer_kinds(sink.set) & LAYERS_LENGTH)
+    layer_put(sink, layer_of_length(sink.set, depth), value * weight);
+}
+
 /// The same for pixel (x, y) of the whole picture, from any work-item; nothing outside the tile.
 INLINE void layer_splat(GLOBAL uint* layers, GLOBAL uint* diag, Launch launch, int x, int y,
                         real3 value, real weight, uint s, uint depth) {

@@ -9,7 +9,7 @@
 #include "transport/path.h"
 
 __kernel void camera_trace(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
-#if INTG_CONNECT
+#if INTG_CONNECT || INTG_MERGE
                                EYE_VERTEX_PARAMS VERTEX_COUNT_PARAMS
 #endif
 #if INTG_LAYERS
@@ -21,7 +21,7 @@ __kernel void camera_trace(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
   SCENE_FROM_PARAMS
   uint pixel = launch.slice_first + index;
   TileSample s = tile_sample(launch, camera, filter_table, pixel);
-#if INTG_CONNECT
+#if INTG_CONNECT || INTG_MERGE
   VertexStore store = vertex_store_at(eye_vertices, &vertex_counts[1], launch.eye_capacity);
 #else
   VertexStore store = vertex_store_at(0, 0, 0u);
@@ -38,7 +38,7 @@ __kernel void camera_trace(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
                                  &store, &rays);
   if (pixel >= launch.gather_first)
     samples[pixel] = (float4)(radiance.x, radiance.y, radiance.z, (float)rays);
-#if INTG_CONNECT
+#if INTG_CONNECT || INTG_MERGE
   eye_last[index] = store.last;
   eye_first[index] = store.count;
 #endif

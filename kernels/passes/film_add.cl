@@ -5,14 +5,14 @@
 #include "passes/bundles.h"
 
 __kernel void film_add(FILM_PARAMS
-#if INTG_SPLAT
+#if INTG_SPLAT || INTG_MERGE
                            SPLAT_PARAMS
 #endif
                                DIAG_PARAMS const Launch launch) {
   uint pixel = (uint)get_global_id(0);
   if (pixel >= launch.tile_width * launch.tile_height) return;
   F4 sample = samples[pixel];
-#if INTG_SPLAT
+#if INTG_SPLAT || INTG_MERGE
   __global uint* word = splats + (size_t)pixel * SPLAT_WORDS;
   sample.x += splat_value(word, launch.splat_scale);
   sample.y += splat_value(word + 2, launch.splat_scale);

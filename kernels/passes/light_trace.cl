@@ -50,8 +50,19 @@ INLINE void splat_vertex(PRIVATE const SceneData* scene, Launch launch, Camera c
 #endif
 }
 
+#if INTG_VERTICES
+/// Whether anything can be made of the vertex, as far as path length allows.
+INLINE int light_vertex_kept(Launch launch, PRIVATE const Vertex* v, uint depth) {
+#if INTG_GATHER
+  return vertex_gathers(v) && depth > 1u;  // light samples bring the first
+#else
+  return depth + (INTG_MERGE ? 1u : 2u) <= launch.max_depth;
+#endif
+}
+#endif
+
 __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
-#if INTG_CONNECT
+#if INTG_CONNECT || INTG_MERGE
                               LIGHT_VERTEX_PARAMS VERTEX_COUNT_PARAMS
 #endif
 #if INTG_LAYERS
@@ -66,23 +77,25 @@ __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
   rng.iteration = launch.iteration;
   rng.seed = launch.seed;
   int splatted = rng.path >= launch.splat_first && rng.path < launch.splat_end;
-#if INTG_CONNECT
+#if INTG_VERTICES
   int stored = rng.path >= launch.store_first && rng.path < launch.store_end;
   VertexStore store = vertex_store_at(light_vertices, &vertex_counts[0], launch.light_capacity);
 #endif
   LightWalk w = light_walk_start(&scene_data, rng);
   Vertex v;
   uint limit = depth_limit(launch);
-  while (w.depth + 1u < limit && light_walk_next(&scene_data, &w, &v)) {
+  while (w.depth + 1u < limit && light_walk_next(&scene_data, launch, &w, &v)) {
     if (!bsdf_is_delta(v.material)) {
+#if INTG_SPLAT
       if (splatted)
         splat_vertex(&scene_data, launch, camera, filter_table, filter_values, splats,
 #if INTG_LAYERS
                      layers,
 #endif
                      rng, &w, &v);
-#if INTG_CONNECT
-      if (stored && w.depth + 2u <= launch.max_depth)
+#endif
+#if INTG_VERTICES
+      if (stored && light_vertex_kept(launch, &v, w.depth))
         vertex_store(&store, &v, w.walk.beta, w.walk.partials, w.depth);
 #endif
     }
@@ -90,7 +103,7 @@ __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
     if (!walk_scatter(&scene_data, launch, rng, DIM_LIGHT_WALK_BSDF(w.depth - 1u), &v, &w.walk))
       break;
   }
-#if INTG_CONNECT
+#if INTG_VERTICES
   light_last[index] = store.last;
   light_first[index] = store.count;
 #endif

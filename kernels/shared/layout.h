@@ -84,6 +84,7 @@ LAYOUT_CHECK(Shape, 16);
 #define LOBE_DELTA 1u     // single directions, which only sampling finds
 #define LOBE_SPREAD 2u    // directions with a density: NEE and connections reach them
 #define LOBE_TRANSMIT 4u  // light passes through
+#define LOBE_NARROW 8u    // all of its spread lobes are narrower than ALPHA_GATHER
 /// Written by pack; colours linear Rec.709.
 typedef struct Material {
   uint kind;       // MATERIAL_*
@@ -210,8 +211,8 @@ typedef struct PathVertex {
   F4 wo_dVCM;   // unit, to the vertex before
   F4 beta_dVC;  // throughput up to here; of a light path: power [W]
   uint material;
-  uint flags;   // SHAPE_*
-  uint depth;   // segments from the sub-path's start
+  uint flags_depth;  // low 8 bits: SHAPE_*; then segments from the sub-path's start
+  float dVM;
   uint before;  // slot of the stored vertex before, or NONE
 } PathVertex;
 LAYOUT_CHECK(PathVertex, 96);
@@ -223,8 +224,9 @@ typedef struct CompactVertex {
   uint ng, ns, wo;  // octahedral, 2 x 16 bits
   uint before;      // slot of the stored vertex before, or NONE
   uint beta;        // three mantissas of 8 bits and, on top, an exponent of 8
-  uint dVCM;        // upper 24 bits of the float, rounded; then the low 8 bits of the depth
-  uint dVC;         // the same; then its high 8 bits
+  uint dVCM;        // upper 24 bits of the float, rounded; then the low 8 bits of the depth. With
+                    // merging: upper 16 bits, then the upper 16 of dVM
+  uint dVC;         // the same; then its high 8 bits. With merging: upper 16 bits, then the depth
   uint uv;          // texture coordinates as halfs
 } CompactVertex;
 LAYOUT_CHECK(CompactVertex, 48);

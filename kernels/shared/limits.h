@@ -27,6 +27,10 @@
 /// GGX below this width is packed as a delta: half-vector cosines lose it in float (numerics 12).
 #define ALPHA_DELTA 1e-3f
 
+/// Lobes below this width are followed, not gathered on: of the photons around a point too few come
+/// from where such a lobe looks.
+#define ALPHA_GATHER 0.1f
+
 /// Nothing scatters at cosines below this: half vectors of two such directions, and f itself, would
 /// leave the range of numbers. Light lost: at most the square of it.
 #define COS_MIN 1e-12f

@@ -33,8 +33,8 @@ INLINE int connect_vertices(PRIVATE const SceneData* scene, Launch launch,
   real cos_g_light = r_abs(dot3(light->v.surface.ng, w));
   link->weight = partial_weight(
       launch.mis,
-      partials_end(launch.mis, light->partials, e.pdf_w * survive_e * cos_g_light / d2, reverse_l),
-      partials_end(launch.mis, eye->partials, l.pdf_w * survive_l * cos_g_eye / d2, reverse_e));
+      partials_end(launch, light->partials, e.pdf_w * survive_e * cos_g_light / d2, reverse_l),
+      partials_end(launch, eye->partials, l.pdf_w * survive_l * cos_g_eye / d2, reverse_e));
   real3 target = spawn_origin(light->v.surface.p, light->v.surface.ng, light->v.surface.offset, -w);
   return shadow_ray(&eye->v.surface, w, target, &link->ray);
 }

@@ -29,7 +29,7 @@ INLINE int merge_vertices(PRIVATE const SceneData* scene, Launch launch,
   if (!(cos_g > REAL(0.0))) return 0;
   merge->value = eye->beta * e.f * light->beta * (cos_wi / cos_g * (real)launch.merge_scale);
   merge->weight = REAL(1.0);
-#if INTG_CONNECT
+#if INTG_CONNECT && INTG_MERGE
   real survive = (real)eye->v.material.survive;
   real reverse = vertex_pdf_reverse(scene, &eye->v, wi) * survive;
   real on_light = partials_merge(launch, light->partials, e.pdf_w * survive);

@@ -1,5 +1,5 @@
 // The running quantities that give every strategy's weight in O(1) [Georgiev12 "Implementing Vertex
-// Connection and Merging"], for connections alone.
+// Connection and Merging"].
 //
 // Quantities are ratios of densities and never squared: under the power heuristic sums of squares
 // are kept as their root. So both heuristics have the same range of numbers (numerics 7).
@@ -15,6 +15,9 @@ typedef struct Partials {
   real dVCM;
   real dVC_scaled;  // dVC over 2^(64 scale)
   uint scale;
+#if INTG_MERGE
+  real dVM;
+#endif
 } Partials;
 
 #define PARTIALS_SCALE REAL(18446744073709551616.0)         /* 2^64 */
@@ -25,6 +28,9 @@ INLINE Partials partials_start(real dVCM, real dVC) {
   q.dVCM = dVCM;
   q.dVC_scaled = dVC;
   q.scale = 0u;
+#if INTG_MERGE
+  q.dVM = REAL(0.0);
+#endif
   return q;
 }
 
@@ -70,16 +76,28 @@ INLINE void partials_arrive(PRIVATE Partials* q, real distance2, real cos_g) {
   real inv = REAL(1.0) / cos_g;
   q->dVCM = r_min(q->dVCM * distance2 * inv, REAL_MAX);
   q->dVC_scaled = r_min(q->dVC_scaled * inv, REAL_MAX);
+#if INTG_MERGE
+  q->dVM = r_min(q->dVM * inv, REAL_MAX);
+#endif
 }
 
 /// It goes on by a lobe with densities `forward` and `reverse` [1/sr], survival included, leaving
 /// under |cos| to the geometric normal.
-INLINE void partials_scatter(uint heuristic, PRIVATE Partials* q, real forward, real reverse,
+INLINE void partials_scatter(Launch launch, PRIVATE Partials* q, real forward, real reverse,
                              real cos_g) {
+  uint heuristic = launch.mis;
   real inv = REAL(1.0) / forward;
+#if INTG_MERGE
+  real merged = partial_sum(heuristic, q->dVM * reverse, q->dVCM * (real)launch.mis_vc);
+  merged = partial_sum(heuristic, merged, REAL(1.0));
+  q->dVM = r_min(merged * cos_g * inv, REAL_MAX);
+#endif
   real vcm = q->dVCM;  // over 2^(64 scale)
   if (q->scale > 0u) vcm = q->scale == 1u ? vcm * PARTIALS_SCALE_INV : REAL(0.0);
   real before = partial_sum(heuristic, q->dVC_scaled * reverse, vcm);
+#if INTG_MERGE
+  if (q->scale == 0u) before = partial_sum(heuristic, before, (real)launch.mis_vm);
+#endif
   q->dVC_scaled = before * cos_g * inv;
   q->dVCM = r_min(inv, REAL_MAX);
   partials_rescale(q);
@@ -90,13 +108,28 @@ INLINE void partials_scatter(uint heuristic, PRIVATE Partials* q, real forward, 
 INLINE void partials_scatter_delta(PRIVATE Partials* q, real reverse, real cos_g) {
   q->dVCM = REAL(0.0);
   q->dVC_scaled = q->dVC_scaled * cos_g * reverse;
+#if INTG_MERGE
+  q->dVM = r_min(q->dVM * cos_g * reverse, REAL_MAX);
+#endif
   partials_rescale(q);
 }
 
 /// What the strategies on one side weigh at its end vertex: `pdf_a` [1/m^2] draws this vertex from
 /// the other side, `reverse` [1/sr] from here the one before.
-INLINE real partials_end(uint heuristic, Partials q, real pdf_a, real reverse) {
-  return pdf_a * partial_sum(heuristic, partials_dVC(q) * reverse, q.dVCM);
+INLINE real partials_end(Launch launch, Partials q, real pdf_a, real reverse) {
+  real sum = partial_sum(launch.mis, partials_dVC(q) * reverse, q.dVCM);
+#if INTG_MERGE
+  sum = partial_sum(launch.mis, sum, (real)launch.mis_vm);
+#endif
+  return pdf_a * sum;
 }
+
+#if INTG_MERGE
+/// What the strategies on one side weigh where its end vertex is merged; `reverse` [1/sr] draws
+/// from here the one before, by the other side's walk.
+INLINE real partials_merge(Launch launch, Partials q, real reverse) {
+  return partial_sum(launch.mis, q.dVCM * (real)launch.mis_vc, q.dVM * reverse);
+}
+#endif
 
 #endif

@@ -77,9 +77,12 @@ INLINE real nee_weight(PRIVATE const SceneData* scene, Launch launch, PRIVATE co
   real by_chance = light->delta ? REAL(0.0) : e.pdf_w * survive / light->pdf_w;
   real cos_g = r_abs(dot3(v->surface.ng, light->wi));
   return partial_weight(launch.mis, by_chance,
-                        partials_end(launch.mis, walk->partials, light->emit * cos_g,
+                        partials_end(launch, walk->partials, light->emit * cos_g,
                                      vertex_pdf_reverse(scene, v, light->wi) * survive));
 #elif INTG_MIS
+#if INTG_GATHER
+  if (vertex_gathers(v)) return REAL(1.0);  // nobody goes on from here to find light by chance
+#endif
   if (light->delta) return REAL(1.0);
   return mis_weight(launch.mis, light->pdf_w, e.pdf_w * (real)v->material.survive, 1);
 #else
@@ -108,6 +111,32 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
   if (bvh_trace(scene, shadow, 1).prim != NONE) return;
   real w = nee_weight(scene, launch, v, walk, &light, e);
   walk_gather(walk, walk->beta * e.f * light.radiance * (cos_wi / light.pdf_w), w, 1u, bounce + 2u);
+#endif
+}
+
+/// Keeps the vertex for connections and merging, as far as path length allows any.
+INLINE void walk_keep(PRIVATE VertexStore* store, Launch launch, uint depth,
+                      PRIVATE const Vertex* v, PRIVATE Walk* walk) {
+#if INTG_CONNECT
+  walk_arrive(v, walk);
+#endif
+#if INTG_GATHER
+  if (vertex_gathers(v) && depth + 1u <= launch.max_depth)
+    vertex_store(store, v, walk->beta, partials_start(REAL(0.0), REAL(0.0)), depth);
+#elif INTG_CONNECT
+  if (!bsdf_is_delta(v->material) && depth + (INTG_MERGE ? 1u : 2u) <= launch.max_depth)
+    vertex_store(store, v, walk->beta, walk->partials, depth);
+#endif
+}
+
+/// From this vertex on delta lobes alone are followed: other methods see to the rest.
+INLINE int walk_ends_spread(PRIVATE const Vertex* v) {
+#if INTG_SEEN
+  return 1;
+#elif INTG_GATHER
+  return vertex_gathers(v);
+#else
+  return 0;
 #endif
 }
 
@@ -143,19 +172,12 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
     Vertex v = vertex_at(scene, surface, -walk.ray.d, 0);
     if (v.black) break;
     uint bounce = depth - 1u;
-#if INTG_CONNECT
-    walk_arrive(&v, &walk);
-    if (!bsdf_is_delta(v.material) && depth + 2u <= launch.max_depth)
-      vertex_store(store, &v, walk.beta, walk.partials, depth);
-#endif
+    walk_keep(store, launch, depth, &v, &walk);
     if (!bsdf_is_delta(v.material)) walk_nee(scene, launch, rng, bounce, &v, &walk);
-#if INTG_SEEN
-    if (!bsdf_has_delta(v.material)) break;
-#endif
+    int delta_only = walk_ends_spread(&v);
+    if (delta_only && !bsdf_has_delta(v.material)) break;
     if (!walk_scatter(scene, launch, rng, DIM_BSDF(bounce), &v, &walk)) break;
-#if INTG_SEEN
-    if (walk.pdf_w > REAL(0.0)) break;
-#endif
+    if (delta_only && walk.pdf_w > REAL(0.0)) break;
   }
   *rays = walk.rays;
   return walk.radiance;

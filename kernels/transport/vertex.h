@@ -45,6 +45,11 @@ INLINE Vertex vertex_at(PRIVATE const SceneData* scene, Surface surface, real3 w
   return v;
 }
 
+/// Photons are gathered here: light scatters widely, so that those around stand for it.
+INLINE int vertex_gathers(PRIVATE const Vertex* v) {
+  return (v->material.lobes & (LOBE_SPREAD | LOBE_NARROW)) == LOBE_SPREAD;
+}
+
 /// Both normals agree whether wi is reflected or transmitted.
 INLINE int vertex_sides_agree(PRIVATE const Vertex* v, real3 wi, real3 wi_local) {
   return dot3(v->surface.ng, wi) * v->side * wi_local.z > REAL(0.0);

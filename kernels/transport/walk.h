@@ -10,6 +10,11 @@
 
 /// Emitters seen directly or through delta surfaces alone: what light tracing leaves to the camera.
 #define INTG_SEEN (INTG_SPLAT && !INTG_CONNECT)
+/// Vertices of sub-paths are kept, to be connected or merged.
+#define INTG_VERTICES (INTG_CONNECT || INTG_MERGE)
+/// `sppm`: the eye path gathers at its first vertex that scatters widely, and goes on from there
+/// through delta lobes alone.
+#define INTG_GATHER (INTG_MERGE && !INTG_CONNECT)
 
 typedef struct Walk {
   Ray ray;
@@ -17,7 +22,7 @@ typedef struct Walk {
   real3 radiance;  // gathered so far
   real3 p_prev;    // last vertex
   real pdf_w;  // density of ray.d by the walk, survival included; 0 after delta or at the camera
-#if INTG_CONNECT
+#if INTG_VERTICES
   Partials partials;
 #endif
 #if INTG_LAYERS
@@ -33,7 +38,7 @@ INLINE Walk walk_start(Ray ray, real3 beta) {
   walk.radiance = REAL3(0.0f, 0.0f, 0.0f);
   walk.p_prev = ray.o;
   walk.pdf_w = REAL(0.0);
-#if INTG_CONNECT
+#if INTG_VERTICES
   walk.partials = partials_start(REAL(0.0), REAL(0.0));
 #endif
   walk.rays = 0;
@@ -61,7 +66,7 @@ INLINE void walk_leave(PRIVATE const SceneData* scene, Launch launch, PRIVATE co
   } else {
     real survive = (real)v->material.survive;
     real reverse = vertex_pdf_reverse(scene, v, s.wi) * survive;
-    partials_scatter(launch.mis, &walk->partials, s.pdf_w * survive, reverse, cos_g);
+    partials_scatter(launch, &walk->partials, s.pdf_w * survive, reverse, cos_g);
   }
 }
 #endif

@@ -1,0 +1,65 @@
+// Methods that merge eye paths with the light vertices around them.
+#include "integrators/registry.h"
+#include "shared/limits.h"
+
+namespace pellucid {
+namespace {
+
+using B = Bundle;
+
+/// Light paths, and their vertices sorted by the cell of space that they lie in.
+std::vector<Pass> photon_passes() {
+  std::vector<Pass> passes{
+      {"light_trace",
+       {B::scene, B::filter, B::splat, B::light_vertices, B::vertex_counts, B::diag},
+       Domain::light_paths,
+       true},
+      {"vertex_scan", {B::light_vertices, B::eye_vertices}, Domain::sides},
+      {"vertex_order", {B::light_vertices, B::eye_vertices}, Domain::sub_paths},
+      {"grid_keys", {B::scene, B::light_vertices, B::grid, B::diag}, Domain::photons}};
+  for (uint digit = 0; digit < SORT_PASSES; ++digit) {
+    passes.push_back({"grid_count", {B::grid}, Domain::blocks, false, digit});
+    passes.push_back({"grid_scan", {B::grid}, Domain::sides, false, digit});
+    passes.push_back({"grid_scatter", {B::grid}, Domain::blocks, false, digit});
+  }
+  passes.push_back({"grid_ranges", {B::light_vertices, B::grid}, Domain::photons});
+  return passes;
+}
+
+/// Eye paths, one slice after the other, and what becomes of them.
+void add_eye_passes(bool connects, std::vector<Pass>& passes) {
+  passes.push_back({"camera_trace",
+                    {B::scene, B::filter, B::film, B::eye_vertices, B::vertex_counts, B::diag},
+                    Domain::slice,
+                    true});
+  passes.push_back({"vertex_scan", {B::light_vertices, B::eye_vertices}, Domain::sides});
+  passes.push_back({"vertex_order", {B::light_vertices, B::eye_vertices}, Domain::sub_paths});
+  if (connects)
+    passes.push_back({"connect",
+                      {B::scene, B::film, B::light_vertices, B::eye_vertices, B::diag},
+                      Domain::slice,
+                      true});
+  passes.push_back({"merge",
+                    {B::scene, B::film, B::light_vertices, B::eye_vertices, B::grid, B::diag},
+                    Domain::slice,
+                    true});
+  passes.push_back({"film_add", {B::film, B::splat, B::diag}});
+}
+
+Integrator merging(const std::string& name, const std::string& summary, FeatureSet wishes) {
+  const bool connects = wishes.has(INTG_CONNECT);
+  std::vector<Pass> passes = photon_passes();
+  add_eye_passes(connects, passes);
+  return {name, summary, wishes, connects, passes, connects ? LAYER_LENGTH_MAX : 1};
+}
+
+}  // namespace
+
+std::vector<Integrator> merging_integrators() {
+  return {
+      merging("sppm", "stochastic progressive photon mapping", {INTG_NEE, INTG_MIS, INTG_MERGE}),
+      merging("vcm", "vertex connection and merging",
+              {INTG_NEE, INTG_MIS, INTG_SPLAT, INTG_CONNECT, INTG_MERGE})};
+}
+
+}  // namespace pellucid
