@@ -87,7 +87,7 @@ INLINE real half_unpack(uint bits) {
 }
 
 /// A colour >= 0 as three mantissas of 8 bits under the exponent of the largest [Ward91], rounded:
-/// off by at most 1/256 of that.
+/// off by at most 1/255 of that.
 INLINE uint rgbe_pack(real3 c) {
   uint exponent = float_bits((float)max3(c)) >> 23;             // largest < 2^(exponent - 126)
   if (exponent < 9u) return 0u;                                 // below 2^-118: black

@@ -21,7 +21,7 @@ void expect_close(const EndVertex& a, const EndVertex& b) {
   EXPECT_LT(angle_between(a.v.surface.ng, b.v.surface.ng), 6.5e-5);
   EXPECT_LT(angle_between(a.v.surface.ns, b.v.surface.ns), 6.5e-5);
   const real largest = max3(a.beta);
-  EXPECT_LE(double(max3(abs3(a.beta - b.beta))), 1.001 / 256 * double(largest));
+  EXPECT_LE(double(max3(abs3(a.beta - b.beta))), 1.0 / 255 * double(largest));
   EXPECT_NEAR(double(b.partials.dVCM), double(a.partials.dVCM), 0x1p-16 * double(a.partials.dVCM));
   EXPECT_NEAR(double(partials_dVC(b.partials)), double(partials_dVC(a.partials)),
               0x1p-16 * double(partials_dVC(a.partials)));
@@ -45,10 +45,10 @@ TEST(AuditCompact, IsOffByAHundredth) {
         e.vertices, e.turned_black, e.pairs, e.lost, e.quantile(0.5), e.quantile(0.99),
         e.back_sum / e.value_sum - 1, e.worst_weight);
     EXPECT_GT(e.vertices, 1000);
-    // Directions turn by 6e-5, so what grazes by less may end up on the other side.
+    // Directions turn by 6.5e-5, so what grazes by less may end up on the other side.
     EXPECT_LE(e.turned_black, e.vertices / 1000);
     EXPECT_LE(e.lost, e.pairs / 1000);
-    // Colours to 1/256 of the largest channel, twice.
+    // Colours to 1/255 of the largest channel, twice.
     EXPECT_LT(e.quantile(0.5), 1e-2);
     EXPECT_NEAR(e.back_sum / e.value_sum, 1.0, 2e-3);
   }
