@@ -92,7 +92,8 @@ class Plan {
   bool traces_side(const Pass& pass) const;
   std::array<uint, 2> take_vertex_counts();
   bool settle_vertices(Launch launch);
-  bool make_room(Side& side, std::size_t needed);
+  bool make_room(const std::array<uint, 2>& needed);
+  void resize(const std::array<std::size_t, 2>& capacity);
 
   Device device_;
   PlanOptions options_;

@@ -95,53 +95,72 @@ std::array<uint, 2> Plan::take_vertex_counts() {
   return counts;
 }
 
-/// Waits for the slice's vertices; where they did not all find room, makes it and traces that side
-/// again, without what has been splatted and gathered already. False: the slice is too large.
+/// Waits for the slice's vertices; where they did not all find room, makes it and traces again,
+/// without what has been splatted and gathered already. False: the slice is too large.
 bool Plan::settle_vertices(Launch launch) {
   const std::array<uint, 2> counts = take_vertex_counts();
+  const std::array<std::size_t, 2> before{sides_[0].capacity, sides_[1].capacity};
+  if (counts[0] <= before[0] && counts[1] <= before[1]) return true;
+  if (!make_room(counts)) {
+    if (launch.slice_count > launch.tile_width) return false;
+    const std::uint64_t bytes =
+        (std::uint64_t(counts[0]) + counts[1]) * (vertex_bytes(options_) + sizeof(uint));
+    throw DeviceError(fmt::format(
+        "the vertices of one row of pixels need {}, more than is left of {} on {}; allow more "
+        "with --memory, or try --vertices compact, --max-depth, or fewer --light-paths",
+        format_bytes(bytes), format_bytes(memory_limit_), device_.info().name));
+  }
   launch.splat_first = launch.splat_end = 0;
   launch.gather_first = NONE;
-  for (std::size_t i = 0; i < sides_.size(); ++i) {
-    Side& side = sides_[i];
-    if (counts[i] <= side.capacity) continue;
-    if (!make_room(side, counts[i])) {
-      if (launch.slice_count > launch.tile_width) return false;
-      throw DeviceError(fmt::format(
-          "the {} vertices of one row of pixels need {}, more than is left of {} on {}; allow more "
-          "with --memory, or try --vertices compact, --max-depth, or fewer --light-paths",
-          side.name, format_bytes(counts[i] * vertex_bytes(options_)), format_bytes(memory_limit_),
-          device_.info().name));
-    }
-    launch.light_capacity = uint(sides_[0].capacity);
-    launch.eye_capacity = uint(sides_[1].capacity);
-    this->launch(pass_named(side.trace), launch);
-    take_vertex_counts();
-  }
+  launch.light_capacity = uint(sides_[0].capacity);
+  launch.eye_capacity = uint(sides_[1].capacity);
+  for (std::size_t i = 0; i < sides_.size(); ++i)
+    if (sides_[i].capacity != before[i]) this->launch(pass_named(sides_[i].trace), launch);
+  take_vertex_counts();
   return true;
 }
 
-/// Larger buffers for a side, if they fit beside all others.
-bool Plan::make_room(Side& side, std::size_t needed) {
+/// Buffers for so many vertices, if they fit beside all others: with something to spare, or else
+/// exactly, or else at the cost of what the other side has too much.
+bool Plan::make_room(const std::array<uint, 2>& needed) {
   constexpr double spare = 1.25;  // iterations differ: growing anew in each would cost more
-  const std::string vertices = side.name + "_vertices", order = side.name + "_order";
+  const std::size_t vertex = vertex_bytes(options_);
   std::uint64_t others = 0;
-  for (const auto& [name, buffer] : buffers_)
-    if (name != vertices && name != order) others += buffer.bytes();
-  const auto fits = [&](std::size_t capacity) {
-    const std::size_t bytes = capacity * vertex_bytes(options_);
-    return bytes <= device_.info().max_buffer &&
-           others + bytes + capacity * sizeof(uint) <= memory_limit_;
+  for (const auto& [name, buffer] : buffers_) others += buffer.bytes();
+  for (const Side& side : sides_) others -= side.capacity * (vertex + sizeof(uint));
+  std::array<std::size_t, 2> grown{}, exact{}, least{};
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    const std::size_t has = sides_[i].capacity;
+    least[i] = std::max<std::size_t>(needed[i], 1);
+    exact[i] = std::max(has, least[i]);
+    grown[i] = needed[i] > has ? std::size_t(double(needed[i]) * spare) : has;
+  }
+  for (const auto& capacity : {grown, exact, least}) {
+    const std::uint64_t all = capacity[0] + capacity[1];
+    if (std::max(capacity[0], capacity[1]) * vertex > device_.info().max_buffer) continue;
+    if (others + all * (vertex + sizeof(uint)) > memory_limit_) continue;
+    resize(capacity);
+    return true;
+  }
+  return false;
+}
+
+void Plan::resize(const std::array<std::size_t, 2>& capacity) {
+  const auto each = [&](auto&& act) {
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+      if (sides_[i].capacity != capacity[i]) act(sides_[i], capacity[i]);
+    for (PassState& state : passes_) bind(state);
   };
-  std::size_t capacity = std::size_t(double(needed) * spare);
-  if (!fits(capacity)) capacity = needed;
-  if (!fits(capacity)) return false;
-  buffers_[vertices] = buffers_[order] = buffers_.at("vertex_counts");  // lets go of the old ones
-  for (PassState& state : passes_) bind(state);
-  buffers_[vertices] = device_.create_buffer(vertices, capacity * vertex_bytes(options_));
-  buffers_[order] = device_.create_buffer(order, capacity * sizeof(uint));
-  for (PassState& state : passes_) bind(state);
-  side.capacity = capacity;
-  return true;
+  each([&](Side& side, std::size_t) {  // lets go of the old ones first
+    buffers_[side.name + "_vertices"] = buffers_[side.name + "_order"] =
+        buffers_.at("vertex_counts");
+  });
+  each([&](Side& side, std::size_t n) {
+    const std::string vertices = side.name + "_vertices", order = side.name + "_order";
+    buffers_[vertices] = device_.create_buffer(vertices, n * vertex_bytes(options_));
+    buffers_[order] = device_.create_buffer(order, n * sizeof(uint));
+    side.capacity = n;
+  });
 }
 
 }  // namespace pellucid

@@ -55,7 +55,14 @@ INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, Launch l
 
 #if PELLUCID_DEVICE
 
-/// Whether the tile has pixel (x, y) of the whole picture.
+/// Whether the window has pixel (x, y) of the whole picture.
+INLINE int film_in_window(Launch launch, int x, int y) {
+  return x >= (int)launch.window_x && y >= (int)launch.window_y &&
+         x < (int)(launch.window_x + launch.window_width) &&
+         y < (int)(launch.window_y + launch.window_height);
+}
+
+/// Whether the tile has it.
 INLINE int film_in_tile(Launch launch, int x, int y) {
   return x >= (int)launch.tile_x && y >= (int)launch.tile_y &&
          x < (int)(launch.tile_x + launch.tile_width) &&

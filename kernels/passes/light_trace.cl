@@ -37,8 +37,9 @@ INLINE void splat_vertex(PRIVATE const SceneData* scene, Launch launch, Camera c
   y = (int)floor(at.y);
 #endif
   CameraLink link;
-  if (!film_in_tile(launch, x, y) || !camera_link(scene, launch, camera, w, v, &link)) return;
-  ++w->walk.rays;
+  if (!film_in_window(launch, x, y) || !camera_link(scene, launch, camera, w, v, &link)) return;
+  ++w->walk.rays;  // though another band may be the one to trace it
+  if (!film_in_tile(launch, x, y)) return;
   if (bvh_trace(scene, link.ray, 1).prim != NONE) return;
   real3 value = link.value * (link.weight * weight);
   film_splat(splats, scene->diag, launch, x, y, value.x, value.y, value.z);

@@ -48,7 +48,7 @@ struct SplatRun {
         device.build("probe_splat", files.expand("passes/probe_splat.cl", prelude), options);
     Kernel add = device.build("film_add", files.expand("passes/film_add.cl", prelude), options);
     SplatResult out;
-    out.words.resize(film_side * film_side * 6);
+    out.words.resize(film_side * film_side * SPLAT_WORDS);
     out.diag.resize(DIAG_COUNT);
     out.film.resize(film_side * film_side);
     const Buffer words = device.create_buffer("splats", out.words.size() * sizeof(uint));
@@ -123,13 +123,33 @@ TEST(SplatTest, WhatCannotBeAddedIsCounted) {
   const float inf = std::numeric_limits<float>::infinity();
   const std::vector<F4> bad{
       {NAN, 1, 1, 0}, {1, inf, 1, 0}, {1, 1, -1, 0}, {1e30f, 1, 1, 0}, {1, 1, 1, 100000}};
-  const SplatResult result = SplatRun{}(bad);
-  EXPECT_EQ(result.diag[DIAG_nonfinite], 2u);
-  EXPECT_EQ(result.diag[DIAG_negative], 1u);
-  EXPECT_EQ(result.diag[DIAG_splat_saturated], 1u);
-  EXPECT_EQ(result.diag[DIAG_splat_outside], 1u);
-  EXPECT_LT(sum_of(result.film[0]), 1e30);
-  EXPECT_EQ(sum_of(result.film[0], 1), 1.0);
+  for (bool int64 : {true, false}) {
+    const SplatResult result = SplatRun{int64, 64}(bad);
+    EXPECT_EQ(result.diag[DIAG_nonfinite], 2u);
+    EXPECT_EQ(result.diag[DIAG_negative], 1u);
+    EXPECT_EQ(result.diag[DIAG_splat_saturated], 1u);
+    EXPECT_EQ(result.diag[DIAG_splat_outside], 1u);
+    EXPECT_LT(sum_of(result.film[0]), 1e30);
+    EXPECT_EQ(sum_of(result.film[0], 1), 1.0);
+  }
+}
+
+// 2^8 of the largest splats leave 64 bits: with 64-bit atomics, in the high word, and by a carry.
+TEST(SplatTest, SumsThatOverflowAreCounted) {
+  const float largest = SPLAT_FIXED_MAX / splat_scale, step = 1.0f / splat_scale;
+  const std::vector<F4> fits(255, F4{largest, largest, 0, 5});
+  std::vector<F4> too_many = fits;
+  too_many.push_back(F4{largest, 0, 0, 5});
+  // 255 2^56 + (2^56 - 2^32) + 2 (2^32 - 2^8): the last comes as a carry from the low word.
+  std::vector<F4> by_carry = fits;
+  by_carry.push_back(F4{largest - std::ldexp(largest, -24), 0, 0, 5});
+  by_carry.push_back(F4{std::ldexp(step, 32) - std::ldexp(step, 8), 0, 0, 5});
+  by_carry.push_back(by_carry.back());
+  for (bool int64 : {true, false}) {
+    EXPECT_EQ((SplatRun{int64, 64}(fits).diag[DIAG_splat_saturated]), 0u) << int64;
+    EXPECT_EQ((SplatRun{int64, 64}(too_many).diag[DIAG_splat_saturated]), 1u) << int64;
+    EXPECT_EQ((SplatRun{int64, 64}(by_carry).diag[DIAG_splat_saturated]), 1u) << int64;
+  }
 }
 
 }  // namespace
