@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace pellucid::test {
 namespace {
@@ -141,6 +142,32 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Equality, testing::ValuesIn(comparisons()), [](
   name[name.find('-')] = '_';
   return name;
 });
+
+// Points of the default sampler, on whose scrambles eye and light paths must not agree: all other
+// tests draw independent numbers. Runs of their own seeds are independent.
+TEST(EqualitySobol, bdpt_has_the_mean_of_path) {
+  constexpr std::uint64_t spp = 512;
+  const Scene scene = scene_named("cornell-box");
+  std::array<Runs, 2> methods{Runs(picture_size), Runs(picture_size)};
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    Build build{m ? "bdpt" : "path", picture_size, picture_size};
+    build.sampler = Sampler::sobol;
+    Renderer renderer(scene, build);
+    Sampling run;
+    run.spp = spp;
+    for (int k = 0; k < runs; ++k) {
+      run.seed = std::uint64_t(100 * m + k);
+      methods[m].add(renderer.render(run));
+    }
+  }
+  // Correlated scrambles once cost 0.2 % of the picture's energy.
+  constexpr double within = 0.004;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Sample& expected = methods[0].image[c];
+    const double energy = std::accumulate(expected.begin(), expected.end(), 0.0) / runs;
+    EXPECT_EQ(welch(methods[1].image[c], expected, 1e-3, within * energy), "") << "channel " << c;
+  }
+}
 
 // The judge itself: Student's table, a difference it must see, noise it must refuse.
 TEST(EqualityJudge, sees_what_it_should) {
