@@ -87,6 +87,7 @@ std::array<double, 3> image_means(const Picture& picture) {
 Evidence collect(Renderer& renderer, uint mis, std::uint64_t seed) {
   Sampling run;
   run.mis = mis;
+  run.max_depth = long_enough;
   run.seed = seed + 99;
   // Two such errors, 6 sigma of Student and an error of 3 fit into the tolerance.
   const std::uint64_t most = std::uint64_t(100000 * tier_effort());
@@ -95,7 +96,7 @@ Evidence collect(Renderer& renderer, uint mis, std::uint64_t seed) {
   Evidence e;
   for (int k = 0; k < runs; ++k) {
     run.seed = seed + std::uint64_t(k);
-    run.max_depth.reset();
+    run.max_depth = long_enough;
     e.total.add(renderer.render(run));
     Sampling ladder = run;
     std::array<double, 3> shorter{};

@@ -143,8 +143,7 @@ TEST(Exact, shorter_render_is_the_beginning_of_a_longer_one) {
   hooks.film = [&](const Film& film) { stages.push_back(film); };
   Sampling long_run = short_run;
   long_run.spp = 2000;
-  // One path in 10^7 is caught in the glass ball by total reflection; that is no matter of batches.
-  long_run.max_depth = 1000;
+  long_run.max_depth = long_enough;
   session_render(everything(), build_of("path"), long_run, hooks);
   ASSERT_GE(stages.size(), 2u);
   for (const Film& stage : stages) {

@@ -185,6 +185,7 @@ Runs runs_of(const Scene& scene, Build build, std::uint64_t seed, int count = 24
   constexpr int tile = 8;
   Renderer renderer(scene, build);
   Sampling run;
+  run.max_depth = long_enough;
   run.seed = seed + 99;
   run.spp = renderer.spp_for(run, tier_tolerance() / 13, std::uint64_t(100000 * tier_effort())) /
                 std::uint64_t(count) +

@@ -67,6 +67,10 @@ bool same_film(const Film& a, const Film& b);
 /// Pixels that differ in any accumulator.
 std::size_t different_pixels(const Film& a, const Film& b);
 
+/// As good as no limit, but for the one path in 10^7 that total reflection catches in a ball of
+/// glass, and that would be counted as an error after thousands of segments.
+constexpr uint long_enough = 1000;
+
 struct Sampling {
   std::uint64_t spp = 64, seed = 1;
   std::optional<uint> max_depth;
