@@ -21,6 +21,7 @@ struct PlanOptions {
   std::string kernel_dir;     ///< read kernels from here instead of the binary
   std::size_t group = 0;      ///< work-items per group; 0: default_group or what the kernel can
   bool simd_builtins = true;
+  bool int64_atomics = true;      ///< where the device has them
   bool compact_vertices = false;  ///< sub-paths' vertices in half the bytes
   double vertices_per_path = 4;   ///< that buffers have room for at first; they grow
 };

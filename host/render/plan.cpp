@@ -86,7 +86,7 @@ Specialisation specialise(const PackedScene& scene, const Integrator& integrator
   s.simd_width = scene.simd_width;
   s.stack_bound = scene.stack_bound;
   s.simd_builtins = options.simd_builtins;
-  s.int64_atomics = device.int64_atomics;
+  s.int64_atomics = device.int64_atomics && options.int64_atomics;
   s.rounded_division = device.rounded_division;
   return s;
 }

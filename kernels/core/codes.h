@@ -32,7 +32,7 @@ INLINE real from_snorm16(uint bits) {
 }
 
 /// A unit direction in 2 x 16 bits: the octahedron unfolded to a square [Cigolle14]. Off by at most
-/// 6e-5 rad (a test measures it).
+/// sqrt(18) half steps = 6.5e-5 rad, in the middle of its faces.
 INLINE uint octahedral_pack(real3 d) {
   real inv = REAL(1.0) / (r_abs(d.x) + r_abs(d.y) + r_abs(d.z));
   real x = d.x * inv, y = d.y * inv;
@@ -93,19 +93,17 @@ INLINE real half_unpack(uint bits) {
 }
 
 /// A colour >= 0 as three mantissas of 8 bits under the exponent of the largest [Ward91], rounded:
-/// off by at most 1/256 of that.
+/// off by at most 1/255 of that.
 INLINE uint rgbe_pack(real3 c) {
   uint exponent = float_bits((float)max3(c)) >> 23;             // largest < 2^(exponent - 126)
   if (exponent < 9u) return 0u;                                 // below 2^-118: black
   real scale = (real)float_from_bits((261u - exponent) << 23);  // 2^(134 - exponent)
-  uint r = (uint)(c.x * scale + REAL(0.5)), g = (uint)(c.y * scale + REAL(0.5)),
-       b = (uint)(c.z * scale + REAL(0.5));
-  if (r > 255u || g > 255u || b > 255u) {
-    r = (r + 1u) >> 1;
-    g = (g + 1u) >> 1;
-    b = (b + 1u) >> 1;
+  if (max3(c) * scale >= REAL(255.5)) {                         // the largest would round up to 256
+    scale = scale * REAL(0.5);
     ++exponent;
   }
+  uint r = (uint)(c.x * scale + REAL(0.5)), g = (uint)(c.y * scale + REAL(0.5)),
+       b = (uint)(c.z * scale + REAL(0.5));
   return r | (g << 8) | (b << 16) | (exponent << 24);
 }
 INLINE real3 rgbe_unpack(uint bits) {

@@ -11,11 +11,14 @@
 #define DIM_BSDF(bounce) (1u + 2u * (bounce))  /* x lobe, y z direction, w roulette */
 #define DIM_LIGHT(bounce) (2u + 2u * (bounce)) /* words x w pick, y z point */
 
-// Walks from lights count apart: path n from the eye and path n from the lights share nothing.
-#define DIM_EMIT_POINT 0x40000000u                                 /* x w pick, y z point */
-#define DIM_EMIT_DIRECTION 0x40000001u                             /* x y direction, z side */
-#define DIM_LIGHT_WALK_BSDF(bounce) (0x40000002u + 2u * (bounce))  /* as DIM_BSDF */
-#define DIM_LIGHT_WALK_SPLAT(bounce) (0x40000003u + 2u * (bounce)) /* x y pixel by the filter */
+// Walks from lights count apart: path n from the eye and path n from the lights share nothing. The
+// hash mixes the highest bits of a dimension into few others, so the two differ in its middle.
+#define DIM_LIGHT_WALK 0x09e30000u
+#define DIM_EMIT_POINT DIM_LIGHT_WALK            /* x w pick, y z point */
+#define DIM_EMIT_DIRECTION (DIM_LIGHT_WALK + 1u) /* x y direction, z side */
+#define DIM_LIGHT_WALK_BSDF(bounce) (DIM_LIGHT_WALK + 2u + 2u * (bounce))  /* as DIM_BSDF */
+#define DIM_LIGHT_WALK_SPLAT(bounce) (DIM_LIGHT_WALK + 3u + 2u * (bounce)) /* x y pixel by filter \
+                                                                            */
 
 /// Four numbers in [0, 1), multiples of 2^-24 (so that 1 is never reached).
 typedef struct Random4 {

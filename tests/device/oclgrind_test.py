@@ -15,7 +15,7 @@ PELLUCID, DEVICE_TESTS = map(os.path.abspath, sys.argv[1:3])
 EVERYTHING = str(pathlib.Path(__file__).parents[1] / "render/scenes/everything.json")
 # Method and scene: together they hold every pass and most lobes and lights.
 RUNS = [("path", "gallery"), ("nee", "four-balls-sun"), ("reference", "four-balls-background"),
-        ("naive", "cornell-box")]
+        ("naive", "cornell-box"), ("light", "cornell-box"), ("bdpt", "four-balls-background")]
 failures = []
 
 
@@ -43,7 +43,6 @@ with tempfile.TemporaryDirectory() as folder:
         check(f"all features {scene}",
               [PELLUCID, "render", scene, "--features", "all", "--spp", "1", "--size", "8x8",
                "--max-depth", "4", "--device", "Oclgrind", "-o", f"{folder}/all.exr"])
-# No method splats yet: the splat film goes through its own test (probe_splat, film_add).
 check("layouts", [DEVICE_TESTS, "--gtest_filter=DeviceTest.LayoutsAgree"])
 check("splats", [DEVICE_TESTS, "--gtest_filter=SplatTest.WhatCannotBeAddedIsCounted"])
 print(f"{len(RUNS) + 4} runs, {len(failures)} with findings")

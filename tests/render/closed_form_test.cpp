@@ -21,7 +21,7 @@ bool has(const Methods& methods, const std::string& name) {
 
 /// Every pixel has the value. Some 30 roundings of 2^-24 lie behind a sample of the longest
 /// constant paths here (glass, met 10 times), all the same way at worst.
-void expect_constant(const Picture& picture, const Rgb& expected) {
+void expect_constant(const Measured& picture, const Rgb& expected) {
   constexpr double bound = 2e-6;
   for (std::size_t i = 0; i < picture.pixels.size(); ++i)
     for (int c = 0; c < 3; ++c)
@@ -29,11 +29,11 @@ void expect_constant(const Picture& picture, const Rgb& expected) {
           << "pixel " << i << " channel " << c;
 }
 
-void expect_value(const Picture& picture, const Rgb& expected, double slack) {
+void expect_value(const Measured& picture, const Rgb& expected, double slack) {
   constexpr double across = 0.005;  // change of the value over the footprint of a picture
   std::size_t inside = 0;
   for (int c = 0; c < 3; ++c) {
-    EXPECT_EQ(judge(picture.image(c), expected[c], slack), "") << "channel " << c;
+    EXPECT_EQ(judge(picture.image[std::size_t(c)], expected[c], slack), "") << "channel " << c;
     for (const auto& p : picture.pixels) {
       const Estimate e = p[std::size_t(c)];
       inside += std::abs(e.mean - expected[c]) <= 5 * e.error() + across * expected[c];
@@ -52,12 +52,12 @@ void check_target(Renderer& renderer, const std::string& method, const Target& t
   Sampling run;
   run.max_depth = target.max_depth;
   if (has(target.constant, method)) {
-    expect_constant(renderer.render(run), target.expected);
+    expect_constant(renderer.measure(run), target.expected);
     return;
   }
   run.spp =
       std::max(least, renderer.spp_for(run, error, std::uint64_t(double(most) * tier_effort())));
-  expect_value(renderer.render(run), target.expected, slack);
+  expect_value(renderer.measure(run), target.expected, slack);
 }
 
 class ClosedForm : public testing::TestWithParam<std::string> {};
@@ -88,10 +88,10 @@ INSTANTIATE_TEST_SUITE_P(Values, ClosedForm, testing::ValuesIn(closed_form_names
                          [](const auto& test) { return test.param; });
 
 void expect_black(const Scene& scene) {
-  for (const char* method : {"naive", "nee", "path", "reference"}) {
-    Renderer renderer(scene, {method, 16, 16});
+  for (const Integrator& method : integrators()) {
+    Renderer renderer(scene, {method.name, 16, 16});
     for (const auto& pixel : renderer.render({}).pixels)
-      for (const Estimate& e : pixel) ASSERT_EQ(e.mean, 0.0) << method;
+      for (const Estimate& e : pixel) ASSERT_EQ(e.mean, 0.0) << method.name;
   }
 }
 
@@ -134,13 +134,13 @@ TEST(ClosedFormValues, match_the_published_digits) {
 void expect_small_loss(const Material& material, double least) {
   Scene scene = scene_named("ball");
   scene.materials.at(0) = material;
-  for (const char* method : {"naive", "nee", "path", "reference"}) {
+  for (const char* method : {"naive", "nee", "path", "reference", "bdpt"}) {
     SCOPED_TRACE(method);
     Renderer renderer(scene, {method, picture_size, picture_size});
     Sampling run;
     run.spp = 512;
-    const Picture picture = renderer.render(run);
-    const Estimate mean = picture.image(0);
+    const Measured picture = renderer.measure(run);
+    const Estimate mean = picture.image[0];
     EXPECT_LE(mean.mean, 1 + 1e-6 + 4.5 * mean.error());
     EXPECT_GE(mean.mean, least);
     // Elsewhere a pixel's own variance says little: sharp lobes under uniform directions.

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "support/statistics.h"
-
 namespace pellucid::test {
 namespace {
 
@@ -104,7 +102,7 @@ std::vector<std::string> compare_runs(const Runs& a, const Runs& b, double alpha
       ++judged;
       const double level = std::max(energy, mean_of(b.tiles[c][i]));
       say(fmt::format("tile {}, channel {}", i, c),
-          welch(a.tiles[c][i], b.tiles[c][i], sidak(alpha, int(n)),
+          welch(a.tiles[c][i], b.tiles[c][i], alpha / double(n),
                 tile_ratio * tier_tolerance() * level));
     }
     if (2 * judged < n) say(fmt::format("channel {}", c), "INCONCLUSIVE: too few samples matter");

@@ -31,7 +31,8 @@ struct Runs {
   void add(const Picture& picture);
 };
 
-/// Image and tiles, all channels. Both have the same tiles. A tile in which fewer than 300 samples
+/// Image and tiles, all channels. Both have the same tiles; Bonferroni over them, since pixels that
+/// share light paths are not independent. A tile in which fewer than 300 samples
 /// matter on either side is not judged alone (its t-test would flake low); if that is so for more
 /// than half of the tiles the verdict is INCONCLUSIVE.
 std::vector<std::string> compare_runs(const Runs& a, const Runs& b, double alpha);

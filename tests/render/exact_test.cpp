@@ -9,7 +9,7 @@
 namespace pellucid::test {
 namespace {
 
-const char* const methods[] = {"naive", "nee", "path", "reference"};
+const char* const methods[] = {"naive", "nee", "path", "reference", "light", "bdpt"};
 constexpr Sampling short_run{24, 7, {}, MIS_BALANCE};
 
 const Scene& everything() {
@@ -143,8 +143,7 @@ TEST(Exact, shorter_render_is_the_beginning_of_a_longer_one) {
   hooks.film = [&](const Film& film) { stages.push_back(film); };
   Sampling long_run = short_run;
   long_run.spp = 2000;
-  // One path in 10^7 is caught in the glass ball by total reflection; that is no matter of batches.
-  long_run.max_depth = 1000;
+  long_run.max_depth = long_enough;
   session_render(everything(), build_of("path"), long_run, hooks);
   ASSERT_GE(stages.size(), 2u);
   for (const Film& stage : stages) {

@@ -33,6 +33,7 @@ PlanOptions plan_options(const Build& build) {
   o.simd_builtins = build.simd_builtins;
   o.compact_vertices = build.compact_vertices;
   o.vertices_per_path = build.vertices_per_path;
+  o.int64_atomics = build.int64_atomics;
   // Mutation tests point this at a copy of kernels/ with a planted fault.
   if (const char* folder = std::getenv("PELLUCID_TEST_KERNELS")) o.kernel_dir = folder;
   return o;
@@ -45,6 +46,14 @@ RenderOptions render_options(const Build& build) {
   if (build.light_paths) o.light_paths = build.light_paths;
   o.plan = plan_options(build);
   return o;
+}
+
+MemoryPlan memory_plan(const PackedScene& packed, const Build& build) {
+  MemoryPlan plan = plan_memory(test_device().info(), packed, find_integrator(build.method),
+                                render_options(build));
+  if (build.slice_rows) plan.slice_rows = build.slice_rows;
+  if (build.growth) plan.limit = plan.device_bytes() + *build.growth;
+  return plan;
 }
 
 void expect_no_errors(const std::vector<Counter>& counters) {
@@ -138,8 +147,7 @@ Renderer::Renderer(const Scene& scene, const Build& build)
     : build_(build),
       packed_(pack(scene, build)),
       plan_(test_device(), packed_, find_integrator(build.method), render_options(build),
-            plan_memory(test_device().info(), packed_, find_integrator(build.method),
-                        render_options(build))) {}
+            memory_plan(packed_, build)) {}
 
 void Renderer::check_counters() {
   std::vector<Counter> counters = make_counters();
@@ -172,16 +180,43 @@ Picture Renderer::render(const Sampling& run) {
   return Picture(std::move(film));
 }
 
+Measured Renderer::measure(const Sampling& run) {
+  Measured m;
+  if (!find_integrator(build_.method).uses(Bundle::splat)) {
+    const Picture picture = render(run);
+    m.pixels = picture.pixels;
+    for (int c = 0; c < 3; ++c) m.image[std::size_t(c)] = picture.image(c);
+    return m;
+  }
+  constexpr std::uint64_t parts = 32;
+  const auto add = [](Estimate& e, double x, std::uint64_t n) {  // [Welford62], n values so far
+    const double d = x - e.mean;
+    e.mean += d / double(n + 1);
+    e.variance += d * (x - e.mean) / double(parts * (parts - 1));
+  };
+  m.pixels.resize(std::size_t(build_.width) * std::size_t(build_.height));
+  Sampling part = run;
+  part.spp = (run.spp + parts - 1) / parts;
+  for (std::uint64_t k = 0; k < parts; ++k) {
+    part.seed = run.seed + 7919 * k;
+    const Picture picture = render(part);
+    for (std::size_t c = 0; c < 3; ++c) {
+      add(m.image[c], picture.image(int(c)).mean, k);
+      for (std::size_t i = 0; i < m.pixels.size(); ++i)
+        add(m.pixels[i][c], picture.pixels[i][c].mean, k);
+    }
+  }
+  return m;
+}
+
 std::uint64_t Renderer::spp_for(const Sampling& run, double relative, std::uint64_t most) {
   Sampling pilot = run;
   pilot.spp = 256;
   pilot.seed = run.seed + 1000003;
-  const Picture picture = render(pilot);
+  const Measured measured = measure(pilot);
   double worst = 0;
-  for (int c = 0; c < 3; ++c) {
-    const Estimate e = picture.image(c);
+  for (const Estimate& e : measured.image)
     if (e.mean > 0) worst = std::max(worst, e.variance / (e.mean * e.mean));
-  }
   const double spp = double(pilot.spp) * worst / (relative * relative);
   return std::clamp(std::uint64_t(spp) + 1, std::uint64_t{16}, most);
 }

@@ -38,6 +38,10 @@ struct Build {
   uint light_paths = 0;  ///< of an iteration; 0: one per pixel
   bool compact_vertices = false;
   double vertices_per_path = 4;  ///< room at first
+  bool int64_atomics = true;
+  uint slice_rows = 0;  ///< 0: as planned
+  std::optional<std::uint64_t> growth =
+      {};  ///< most bytes of the device beyond what is planned at first
 };
 
 /// Mean and variance of that mean.
@@ -63,10 +67,20 @@ bool same_film(const Film& a, const Film& b);
 /// Pixels that differ in any accumulator.
 std::size_t different_pixels(const Film& a, const Film& b);
 
+/// As good as no limit, but for the one path in 10^7 that total reflection catches in a ball of
+/// glass, and that would be counted as an error after thousands of segments.
+constexpr uint long_enough = 1000;
+
 struct Sampling {
   std::uint64_t spp = 64, seed = 1;
   std::optional<uint> max_depth;
   uint mis = MIS_BALANCE;
+};
+
+/// Means of the picture and of its pixels.
+struct Measured {
+  std::array<Estimate, 3> image;
+  std::vector<std::array<Estimate, 3>> pixels;
 };
 
 /// A method ready on a scene: kernels are built once, then any number of pictures are made.
@@ -74,10 +88,13 @@ class Renderer {
  public:
   Renderer(const Scene& scene, const Build& build);
   Picture render(const Sampling& run);
+  /// Pixels of methods that splat share light paths, so there the spread of runs tells the error.
+  Measured measure(const Sampling& run);
   /// spp for which the image's mean is known to `relative` (standard error) by a pilot of its own
   /// seed; `most` bounds the answer, and a render that then is too noisy fails as inconclusive.
   std::uint64_t spp_for(const Sampling& run, double relative, std::uint64_t most);
   const PackedScene& packed() const { return packed_; }
+  const Plan& plan() const { return plan_; }
 
  private:
   void check_counters();

@@ -21,10 +21,21 @@
 #include "shared/limits.h"
 #include "support/twin_prelude.h"
 
-#ifdef PELLUCID_REAL_IS_FLOAT
-#define TWIN_NAMESPACE twin_f32
+// Every way to compile it has a name of its own: the linker must not take one's functions for
+// another's.
+#ifdef TWIN_COMPACT
+#define TWIN_SUFFIX _compact
+#elif defined(TWIN_CONNECT)
+#define TWIN_SUFFIX _connect
 #else
-#define TWIN_NAMESPACE twin_f64
+#define TWIN_SUFFIX
+#endif
+#define TWIN_PASTE(name, suffix) name##suffix
+#define TWIN_NAMED(name, suffix) TWIN_PASTE(name, suffix)
+#ifdef PELLUCID_REAL_IS_FLOAT
+#define TWIN_NAMESPACE TWIN_NAMED(twin_f32, TWIN_SUFFIX)
+#else
+#define TWIN_NAMESPACE TWIN_NAMED(twin_f64, TWIN_SUFFIX)
 #endif
 
 // A feature missing from the prelude would silently count as 0 in #if.

@@ -38,9 +38,13 @@
 #define INTG_CONNECT 0
 #endif
 #define INTG_SPLAT INTG_CONNECT
+#ifdef TWIN_COMPACT  // vertices stored in half the bytes
+#define INTG_COMPACT 1
+#else
 #define INTG_COMPACT 0
+#endif
 #define INTG_LAYERS 0
 #ifndef INTG_SOBOL
 #define INTG_SOBOL 0
 #endif
-#define INTG_FILTER 0
+#define INTG_FILTER INTG_CONNECT

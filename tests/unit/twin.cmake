@@ -8,6 +8,7 @@ check_cxx_compiler_flag(-march=native PELLUCID_HAS_MARCH_NATIVE)
 set(twin_flags $<$<BOOL:${PELLUCID_HAS_MARCH_NATIVE}>:-march=native>)
 
 add_library(pellucid_test_support STATIC
+  ${support_dir}/audit_scenes.cpp
   ${support_dir}/brute_force.cpp
   ${support_dir}/bsdf_cases.cpp
   ${support_dir}/double_twin.cpp
@@ -37,7 +38,16 @@ pellucid_twin_executable(twin_float_tests "float." ${twin_sources} ${film_source
 target_compile_definitions(twin_float_tests PRIVATE PELLUCID_REAL=float PELLUCID_REAL_IS_FLOAT=1)
 pellucid_twin_executable(twin_double_tests "double." ${twin_sources})
 target_compile_definitions(twin_double_tests PRIVATE PELLUCID_REAL=double)
-foreach(twin twin_float_tests twin_double_tests)
+
+# The walks of `bdpt`: all its strategies, their weights, and what is stored of them.
+file(GLOB audit_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/audit_*_test.cpp)
+pellucid_twin_executable(audit_float_tests "float." ${audit_sources})
+target_compile_definitions(audit_float_tests PRIVATE PELLUCID_REAL=float PELLUCID_REAL_IS_FLOAT=1
+  TWIN_CONNECT=1)
+pellucid_twin_executable(audit_double_tests "double." ${audit_sources})
+target_compile_definitions(audit_double_tests PRIVATE PELLUCID_REAL=double TWIN_CONNECT=1)
+
+foreach(twin twin_float_tests twin_double_tests audit_float_tests audit_double_tests)
   target_compile_options(${twin} PRIVATE ${twin_flags})
 endforeach()
 pellucid_twin_executable(pack_tests "" ${pack_sources})

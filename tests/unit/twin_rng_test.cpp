@@ -23,6 +23,29 @@ TEST(TwinRng, UnitIsBelowOneForEveryWord) {
   }
 }
 
+/// Most 16-bit halves of words that a stream of dimensions has in common with another, over paths
+/// that both draw.
+int equal_halves(uint dimension, uint other) {
+  int equal = 0;
+  for (uint path = 0; path < 4096; ++path) {
+    const U4 a = random_words({path, 7, 3}, dimension), b = random_words({path, 7, 3}, other);
+    for (uint shift : {0u, 16u})
+      for (const auto& [x, y] : {std::pair{a.x, b.x}, {a.y, b.y}, {a.z, b.z}, {a.w, b.w}})
+        equal += ((x >> shift) & 0xffffu) == ((y >> shift) & 0xffffu);
+  }
+  return equal;
+}
+
+// Sobol scrambles use every bit of a word: where the hash of two dimensions agrees in the lower
+// ones, an eye path and the light path that it is connected with know of each other.
+TEST(TwinRng, EyeAndLightWalksShareNoBits) {
+  // 4096 paths of 8 halves: 0.5 by chance; 8 and more have a probability of 6e-8, over 1088 pairs.
+  for (uint k = 0; k < 32; ++k)
+    for (uint eye = 0; eye < 34; ++eye) {
+      ASSERT_LT(equal_halves(eye, DIM_LIGHT_WALK + k), 8) << eye << " " << k;
+    }
+}
+
 constexpr int side = 32;  // cells per axis of a pair
 constexpr uint draws = 1000000;
 

@@ -1,0 +1,280 @@
+// What walks from the lights alone can get wrong: the camera's importance over the picture (CF14),
+// light through glass that no other method sees (CF10), both ends of a path (CF16), pixel filters
+// of splats, and the number of paths.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "closed_forms.h"
+#include "equality.h"
+#include "render_harness.h"
+#include "support/statistics.h"
+
+namespace pellucid::test {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+const char* const from_light[] = {"light", "bdpt"};
+
+/// Mean of a block of pixels over runs.
+struct Block {
+  int x0, y0, size;
+  Sample sample = {};
+
+  void add(const Picture& p) { sample.push_back(p.block_mean(0, x0, y0, size)); }
+};
+
+Estimate estimate(const Sample& s) {
+  Moments m;
+  for (double x : s) m.add(x);
+  return {m.mean, m.standard_error() * m.standard_error()};
+}
+
+/// Blocks as runs of `spp` samples give them; lengths up to `depth`, without those up to `without`
+/// (drawn by the same numbers).
+void render_blocks(Renderer& renderer, std::vector<Block>& blocks, int runs, std::uint64_t spp,
+                   uint depth, uint without = 0) {
+  Sampling run;
+  run.spp = spp;
+  for (int k = 0; k < runs; ++k) {
+    run.seed = std::uint64_t(500 + k);
+    run.max_depth = depth;
+    const Picture all = renderer.render(run);
+    run.max_depth = without;
+    const Picture shorter = without ? renderer.render(run) : all;
+    for (Block& b : blocks) {
+      b.add(all);
+      if (without) b.sample.back() -= shorter.block_mean(0, b.x0, b.y0, b.size);
+    }
+  }
+}
+
+/// The furnace as a long box of which the camera at one end frames the other: so walks end in
+/// narrow views, too.
+Scene furnace_corridor(double fov) {
+  Scene scene = scene_named("furnace");
+  const float far = float(-1 / std::tan(0.5 * fov * pi / 180)), near = 0.25f;
+  Mesh& mesh = std::get<Mesh>(scene.shapes.at(0).geometry);
+  mesh.positions = {{-1, -1, far},  {1, -1, far},  {1, 1, far},  {-1, 1, far},
+                    {-1, -1, near}, {1, -1, near}, {1, 1, near}, {-1, 1, near}};
+  mesh.normals.clear();
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {5, 4, 7}, {5, 7, 6}, {4, 0, 3}, {4, 3, 7},
+                    {1, 5, 6}, {1, 6, 2}, {3, 2, 6}, {3, 6, 7}, {4, 5, 1}, {4, 1, 0}};
+  scene.camera.origin = {0, 0, 0};
+  scene.camera.right = {1, 0, 0}, scene.camera.up = {0, 1, 0}, scene.camera.forward = {0, 0, -1};
+  scene.camera.fov = fov;
+  return scene;
+}
+
+// CF14: in a furnace, light of one path length is rho^k Le in every pixel, whatever angle the
+// camera sees it under: a wrong power of the cosine darkens or lightens corners.
+TEST(Light, corners_are_as_bright_as_the_centre) {
+  constexpr int size = 24, block = 6, runs = 32;
+  constexpr double value = 0.5 * 0.5;  // rho Le of the red channel, at 2 segments
+  struct View {
+    double fov;
+    Scene scene;
+    std::uint64_t walks;  ///< millions; the narrower the view, the fewer end in it
+  };
+  Scene wide = scene_named("furnace"), widest = wide;
+  wide.camera.fov = 60;
+  widest.camera.fov = 150;
+  for (const View& view :
+       {View{10, furnace_corridor(10), 24}, View{60, wide, 16}, View{150, widest, 16}}) {
+    constexpr uint paths = 1 << 14;
+    Build build{"light", size, size};
+    build.light_paths = paths;
+    Renderer renderer(view.scene, build);
+    const int end = size - block, middle = size / 2 - block;
+    std::vector<Block> blocks{{0, 0, block},
+                              {end, 0, block},
+                              {0, end, block},
+                              {end, end, block},
+                              {middle, middle, 2 * block}};
+    const double spp = double(view.walks) * 1e6 * tier_effort() / paths / runs;
+    render_blocks(renderer, blocks, runs, std::uint64_t(spp), 2, 1);
+    Sample corners(runs, 0.0);
+    for (std::size_t k = 0; k < runs; ++k)
+      for (std::size_t i = 0; i < 4; ++i) corners[k] += blocks[i].sample[k] / 4;
+    EXPECT_EQ(judge(estimate(corners), value, 1e-5), "") << "corners, fov " << view.fov;
+    EXPECT_EQ(judge(estimate(blocks[4].sample), value, 1e-5), "") << "centre, fov " << view.fov;
+  }
+}
+
+/// Irradiance under a glass pane of thickness t and index n at `r` from the foot of a point light
+/// of intensity 1, D above the floor: light of angle a to the axis lands at (D - t) tan a + t tan
+/// a', by sin a = n sin a', in rings.
+double irradiance_below_pane(double r, double D, double t, double n) {
+  const auto lands = [&](double sine) {
+    return (D - t) * sine / std::sqrt(1 - sine * sine) + t * sine / std::sqrt(n * n - sine * sine);
+  };
+  double low = 0, high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double mid = 0.5 * (low + high);
+    (lands(mid) < r ? low : high) = mid;
+  }
+  const double cosine = std::sqrt(1 - low * low), inner = n * n - low * low;
+  const double per_angle =  // dr / da
+      cosine * ((D - t) / (cosine * cosine * cosine) + t * n * n / (inner * std::sqrt(inner)));
+  // sin a / r tends to the inverse of dr / d sin a on the axis.
+  const double sine_over_r = r > 1e-9 ? low / r : 1 / ((D - t) + t / n);
+  const double passed = 1 - fresnel(cosine, 1, n, 0);
+  return passed * passed * sine_over_r / per_angle;
+}
+
+/// A floor seen from below a pane, which a point light shines through.
+Scene pane_scene() {
+  Scene scene = scene_named("slab");
+  scene.materials.push_back(Material{});
+  scene.materials.back().reflectance = Rgb(0.5);
+  const auto paper = uint(scene.materials.size() - 1);
+  for (Shape& shape : scene.shapes) {
+    Mesh& mesh = std::get<Mesh>(shape.geometry);
+    if (shape.name == "pane") {  // 40 x 40 x 0.125 about z = -0.0625: now from z = 1 to 1.5
+      for (glm::vec3& p : mesh.positions) p.z = p.z < -0.1f ? 1.0f : 1.5f;
+    } else {
+      shape.emission.reset();
+      shape.material = paper;
+      for (glm::vec3& p : mesh.positions) p = {p.x * 0.04f, p.y * 0.04f, 0};  // 4 x 4
+    }
+  }
+  PointLight point;
+  point.position = {0, 0, 2};
+  point.intensity = Rgb(1.0);
+  scene.lights = {point};
+  scene.camera.origin = {0, 0, 0.75};
+  scene.camera.forward = {0, 0, -1};
+  scene.camera.fov = 90;
+  return scene;
+}
+
+// CF10. Views of a parallel plane are affine, so blocks of pixels average over it evenly.
+TEST(Light, through_glass_is_seen_by_walks_from_the_light_alone) {
+  EXPECT_NEAR(irradiance_below_pane(0, 2, 0.5, 1.5), 0.274195, 1e-6);
+  constexpr int size = 16, runs = 32;
+  constexpr double half = 0.75;  // of the picture on the floor
+  const Scene scene = pane_scene();
+  for (const char* method : from_light) {
+    Build build{method, size, size};
+    build.light_paths = 1 << 13;
+    Renderer renderer(scene, build);
+    std::vector<Block> blocks{{0, 0, size}, {size / 4, size / 4, size / 2}};
+    render_blocks(renderer, blocks, runs, std::uint64_t(64 * tier_effort()), 4);
+    for (const Block& b : blocks) {
+      const double edge = half * b.size / size;  // the same on either side of the axis
+      const auto irradiance = [](double x, double y) {
+        return irradiance_below_pane(std::hypot(x, y), 2, 0.5, 1.5);
+      };
+      const double mean = integrate(irradiance, 0, edge, 0, edge, 1e-9) / (edge * edge);
+      EXPECT_EQ(judge(estimate(b.sample), 0.5 * mean / pi, 1e-5), "")
+          << method << ", block of " << b.size;
+    }
+  }
+  for (const char* method : {"naive", "nee", "path", "reference"}) {
+    Renderer renderer(scene, {method, size, size});
+    Sampling run;
+    run.max_depth = 4;
+    for (const auto& pixel : renderer.render(run).pixels)
+      for (const Estimate& e : pixel) ASSERT_EQ(e.mean, 0.0) << method;
+  }
+}
+
+/// Runs of a method, as many samples as `judge` needs for a verdict on the image.
+Runs runs_of(const Scene& scene, Build build, std::uint64_t seed, int count = 24) {
+  constexpr int tile = 8;
+  Renderer renderer(scene, build);
+  Sampling run;
+  run.max_depth = long_enough;
+  run.seed = seed + 99;
+  run.spp = renderer.spp_for(run, tier_tolerance() / 13, std::uint64_t(100000 * tier_effort())) /
+                std::uint64_t(count) +
+            1;
+  Runs runs(tile);
+  for (int k = 0; k < count; ++k) {
+    run.seed = seed + std::uint64_t(k);
+    runs.add(renderer.render(run));
+  }
+  return runs;
+}
+
+// CF16: patches A and B, light from one to the other; the mean of the picture of either is the
+// same, by any method.
+TEST(Light, both_ends_of_paths_can_be_swapped) {
+  const auto mean = [](const char* scene, const char* method, std::uint64_t seed) {
+    return runs_of(scene_named(scene), {method, 24, 24}, seed).image;
+  };
+  const auto known = mean("swap-a", "bdpt", 100);
+  std::uint64_t seed = 200;
+  for (const char* method : from_light) {
+    const auto swapped = mean("swap-b", method, seed);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_EQ(
+          welch(swapped[c], known[c], family_alpha / 6, tier_tolerance() * estimate(known[c]).mean),
+          "")
+          << method << ", channel " << c;
+    seed += 100;
+  }
+}
+
+/// The picture's border as a tile of its own: light that a filter brings in from outside belongs
+/// to it.
+Sample border_of(const std::vector<Picture>& pictures) {
+  Sample s;
+  for (const Picture& p : pictures) {
+    double sum = 0;
+    for (int y = 0; y < p.height; ++y)
+      for (int x = 0; x < p.width; ++x)
+        if (x == 0 || y == 0 || x == p.width - 1 || y == p.height - 1)
+          sum += p.pixels[std::size_t(y * p.width + x)][0].mean;
+    s.push_back(sum / (2 * (p.width + p.height) - 4));
+  }
+  return s;
+}
+
+// Splats are given to pixels by the filter that camera rays are drawn from, over edges and over the
+// border of the picture.
+TEST(Light, splats_are_filtered_like_samples) {
+  constexpr int size = 16, tile = 2, runs = 24;
+  const Scene scene = scene_named("equal-shading");
+  for (PixelFilter filter : {PixelFilter::tent, PixelFilter::gaussian}) {
+    Runs tiles[2] = {Runs(tile), Runs(tile)};
+    Sample border[2];
+    for (int side : {0, 1}) {
+      Build build{side ? "light" : "path", size, size};
+      build.filter = filter;
+      Renderer renderer(scene, build);
+      std::vector<Picture> pictures;
+      for (int k = 0; k < runs; ++k) {
+        pictures.push_back(renderer.render({std::uint64_t((side ? 1024 : 512) * tier_effort()),
+                                            std::uint64_t(700 + 50 * side + k),
+                                            {}}));
+        tiles[side].add(pictures.back());
+      }
+      border[side] = border_of(pictures);
+    }
+    for (const std::string& reason : compare_runs(tiles[1], tiles[0], family_alpha / 4))
+      ADD_FAILURE() << pixel_filter_info(filter).name << ": " << reason;
+    EXPECT_EQ(
+        welch(border[1], border[0], family_alpha / 4, tier_tolerance() * estimate(border[0]).mean),
+        "")
+        << pixel_filter_info(filter).name << ": border";
+  }
+}
+
+TEST(Light, number_of_paths_does_not_change_the_mean) {
+  const Scene scene = scene_named("equal-paint");
+  for (const char* method : from_light) {
+    Build build{method, 24, 24};
+    const Runs one_per_pixel = runs_of(scene, build, 100);
+    for (uint paths : {100u, 2000u}) {
+      build.light_paths = paths;
+      for (const std::string& reason :
+           compare_runs(runs_of(scene, build, 100 + paths), one_per_pixel, family_alpha / 4))
+        ADD_FAILURE() << method << ", " << paths << " light paths: " << reason;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pellucid::test

@@ -1,0 +1,134 @@
+// The recursion of path weights over long chains of wild densities against sums in log space
+// (numerics 7).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "support/test_scenes.h"
+#include "support/twin.h"
+
+namespace {
+
+using namespace twin;
+using pellucid::test::Random;
+
+constexpr int vertices = 128;
+
+/// One end's view of a chain: vertex 0 is its start, density_a draws each vertex from the one
+/// before, and reverse_a from the one after [1/m^2].
+struct Chain {
+  std::array<double, vertices> density_a, reverse_a;
+  std::array<double, vertices> distance2;              ///< of the edge that starts at the vertex
+  std::array<double, vertices> cos_leave, cos_arrive;  ///< at the vertex
+
+  /// pdf [1/sr] at vertex i towards i + 1, and back towards i - 1.
+  real forward(int i) const { return real(density_a[i + 1] * distance2[i] / cos_arrive[i + 1]); }
+  real backward(int i) const {
+    return real(reverse_a[i - 1] * distance2[i - 1] / cos_leave[i - 1]);
+  }
+};
+
+double ten_to(Random& random, double low, double high) {
+  return std::pow(10.0, random.uniform(low, high));
+}
+
+/// Ratios of the densities from both ends: 10^U(-spread, spread) at every vertex.
+Chain random_chain(Random& random, double spread) {
+  Chain c;
+  for (int i = 0; i < vertices; ++i) {
+    c.density_a[i] = ten_to(random, -3, 3);
+    c.reverse_a[i] = c.density_a[i] * ten_to(random, -spread, spread);
+    c.distance2[i] = ten_to(random, -3, 3);
+    c.cos_leave[i] = ten_to(random, -1.5, 0);
+    c.cos_arrive[i] = ten_to(random, -1.5, 0);
+  }
+  return c;
+}
+
+/// As the other end sees it.
+Chain reversed(const Chain& c) {
+  Chain r;
+  for (int i = 0; i < vertices; ++i) {
+    const int j = vertices - 1 - i;
+    r.density_a[i] = c.reverse_a[j];
+    r.reverse_a[i] = c.density_a[j];
+    r.distance2[i] = j > 0 ? c.distance2[j - 1] : 1.0;
+    r.cos_leave[i] = c.cos_arrive[j];
+    r.cos_arrive[i] = c.cos_leave[j];
+  }
+  return r;
+}
+
+/// Partials after arriving at each vertex from the second on. The start is drawn the same way by
+/// all strategies that draw it, and `hit`: also by chance from the other end.
+std::vector<Partials> partials_along(uint heuristic, const Chain& c, bool hit) {
+  std::vector<Partials> all(vertices);
+  Partials q = partials_start(real(1) / c.forward(0),
+                              hit ? real(c.cos_leave[0] / c.density_a[0]) / c.forward(0) : real(0));
+  for (int i = 1; i < vertices; ++i) {
+    partials_arrive(&q, real(c.distance2[i - 1]), real(c.cos_arrive[i]));
+    all[i] = q;
+    if (i + 1 < vertices)
+      partials_scatter(heuristic, &q, c.forward(i), c.backward(i), real(c.cos_leave[i]));
+  }
+  return all;
+}
+
+/// Weights of the strategies that draw vertices 0 .. s-1 from the light, by sums of logarithms. One
+/// end of the chain is the camera, which no walk hits.
+std::vector<double> exact_weights(uint heuristic, const Chain& c) {
+  std::vector<double> logs(vertices);
+  for (int s = 1; s < vertices; ++s)
+    logs[s] = logs[s - 1] + std::log(double(c.density_a[s - 1]) / double(c.reverse_a[s - 1]));
+  const double most = *std::max_element(logs.begin(), logs.end());
+  double sum = 0;
+  for (double& x : logs) sum += x = std::exp((heuristic == MIS_POWER ? 2 : 1) * (x - most));
+  for (double& x : logs) x /= sum;
+  return logs;
+}
+
+struct Errors {
+  double worst = 0;
+  int chains = 0, bad = 0, not_numbers = 0;
+};
+
+Errors errors_of(uint heuristic, double spread, int chains) {
+  Random random(5);
+  Errors e;
+  for (int n = 0; n < chains; ++n) {
+    const Chain light = random_chain(random, spread), eye = reversed(light);
+    const std::vector<Partials> from_light = partials_along(heuristic, light, true),
+                                from_eye = partials_along(heuristic, eye, false);
+    const std::vector<double> exact = exact_weights(heuristic, light);
+    double worst = 0;
+    for (int s = 2; s + 2 <= vertices; ++s) {  // light vertex s-1 joined to the eye's number j
+      const int j = vertices - 1 - s;
+      const real w = partial_weight(
+          heuristic,
+          partials_end(heuristic, from_light[s - 1], real(light.reverse_a[s - 1]),
+                       light.backward(s - 1)),
+          partials_end(heuristic, from_eye[j], real(light.density_a[s]), eye.backward(j)));
+      if (!std::isfinite(w)) ++e.not_numbers;
+      worst = std::max(worst, std::abs(double(w) - exact[s]));
+    }
+    e.worst = std::max(e.worst, worst);
+    e.bad += worst > 1e-4;
+    ++e.chains;
+  }
+  return e;
+}
+
+TEST(AuditPartials, LongChainsOfWildRatios) {
+  for (uint heuristic : {MIS_BALANCE, MIS_POWER})
+    for (double spread : {1.0, 3.5, 6.0}) {
+      const Errors e = errors_of(heuristic, spread, 4000);
+      std::printf("%s, ratios 10^+-%g: worst error %.2g, %d of %d chains beyond 1e-4\n",
+                  heuristic == MIS_POWER ? "power" : "balance", spread, e.worst, e.bad, e.chains);
+      EXPECT_EQ(e.not_numbers, 0);
+      EXPECT_LT(e.worst, 1e-4) << e.bad << " of " << e.chains << " chains";
+    }
+}
+
+}  // namespace
