@@ -65,6 +65,27 @@ std::string one_of(const std::string& option, const std::string& text,
                    did_you_mean(text, choices));
 }
 
+/// What concerns merging. Throws UsageError where the method does none.
+void set_merging(const RenderFlags& flags, const Integrator& method, RenderOptions& o) {
+  for (const auto& [option, text] :
+       {std::pair{"--radius", &flags.radius}, {"--radius-alpha", &flags.radius_alpha}})
+    if (!text->empty() && !method.wishes.has(INTG_MERGE))
+      throw UsageError(std::string(option) + " has no effect on '" + method.name +
+                       "', which merges nothing");
+  if (!flags.radius.empty()) {
+    o.radius = parse_number("--radius", flags.radius);
+    // Squares of it and their inverse have to be floats.
+    if (!(*o.radius >= 1e-15 && *o.radius <= 1e15))
+      throw UsageError("--radius takes a length from 1e-15 to 1e15, not '" + flags.radius + "'");
+  }
+  if (!flags.radius_alpha.empty()) {
+    o.radius_alpha = parse_number("--radius-alpha", flags.radius_alpha);
+    if (!(o.radius_alpha > 0 && o.radius_alpha <= 1))
+      throw UsageError("--radius-alpha takes a number above 0 and up to 1, not '" +
+                       flags.radius_alpha + "'");
+  }
+}
+
 /// What concerns sub-paths from lights. Throws UsageError where the method has none.
 void set_sub_paths(const RenderFlags& flags, const Integrator& method, RenderOptions& o) {
   if (flags.light_paths) {
@@ -72,6 +93,7 @@ void set_sub_paths(const RenderFlags& flags, const Integrator& method, RenderOpt
       throw UsageError("--light-paths has no effect on '" + method.name + "', which traces none");
     o.light_paths = uint(flags.light_paths);
   }
+  set_merging(flags, method, o);
   if (flags.vertices.empty()) return;
   o.plan.compact_vertices = one_of("--vertices", flags.vertices, {"full", "compact"}) == "compact";
   if (!method.uses(Bundle::light_vertices))
@@ -135,6 +157,15 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
   app.add_option("--light-paths", f.light_paths,
                  "light paths of an iteration, for the whole picture (default: one per pixel)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xfffffffe}));
+  app.add_option(
+         "--radius", f.radius,
+         "radius of merging in the first pass, world units (default: by the scene's size and "
+         "the light paths)")
+      ->type_name("LENGTH");
+  app.add_option(
+         "--radius-alpha", f.radius_alpha,
+         "how the radius shrinks, above 0 and up to 1 (default 0.75): as pass^((alpha-1)/2)")
+      ->type_name("NUMBER");
   app.add_option("--vertices", f.vertices,
                  "how `bdpt` keeps vertices: full (default), or compact, in half the memory")
       ->type_name("full|compact");

@@ -17,7 +17,7 @@ namespace pellucid {
 struct RenderFlags {
   std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, size, crop,
                                  passes, features = "auto", kernel_dir, stats, memory, checkpoint,
-                                 every, vertices, atlas;
+                                 every, vertices, radius, radius_alpha, atlas;
   std::vector<std::string> overrides, outputs, aovs;
   DeviceFlags device;
   DisplayFlags display;

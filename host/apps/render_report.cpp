@@ -62,6 +62,9 @@ std::string settings_text(const Scene& scene, const RenderOptions& o) {
                   o.max_depth ? std::to_string(*o.max_depth) : "unlimited", mis_name(o.mis),
                   pixel_filter_info(scene.settings.filter).name, sampler_name(o.plan.sampler));
   if (o.light_paths) text += fmt::format(" light-paths {}", *o.light_paths);
+  if (o.radius) text += fmt::format(" radius {}", *o.radius);
+  if (o.radius_alpha != RenderOptions().radius_alpha)
+    text += fmt::format(" radius-alpha {}", o.radius_alpha);
   if (o.plan.compact_vertices) text += " vertices compact";
   return text;
 }
@@ -120,9 +123,17 @@ nlohmann::json render_stats(const RenderFacts& f) {
   json counters = json::object();
   for (const Counter& c : f.session->counters()) counters[c.name] = c.count;
   json passes = json::array();
-  for (const PassState& p : f.session->plan().passes())
-    passes.push_back(
-        {{"name", p.pass.name}, {"seconds", p.time.seconds}, {"launches", p.time.launches}});
+  for (const PassState& p : f.session->plan().passes()) {
+    const auto same = std::find_if(passes.begin(), passes.end(),
+                                   [&](const json& row) { return row["name"] == p.pass.name; });
+    if (same == passes.end()) {
+      passes.push_back(
+          {{"name", p.pass.name}, {"seconds", p.time.seconds}, {"launches", p.time.launches}});
+    } else {  // a kernel that runs more than once in an iteration
+      (*same)["seconds"] = (*same)["seconds"].get<double>() + p.time.seconds;
+      (*same)["launches"] = (*same)["launches"].get<std::uint64_t>() + p.time.launches;
+    }
+  }
   const double pixels = double(f.options.window().pixels());
   return {{"scene", f.scene->name},
           {"scene_hash", f.scene_hash},

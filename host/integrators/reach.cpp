@@ -12,7 +12,8 @@
 //   chance      s = 0            no edge to find: every path, if the light is hittable;
 //   INTG_NEE    s = 1, t >= 2    paths whose first scattering is a D;
 //   INTG_SPLAT  s >= 2, t = 1    paths whose last scattering is a D (also s = 1 by NEE of L D E);
-//   INTG_CONNECT s, t >= 2       paths with two D in a row.
+//   INTG_CONNECT s, t >= 2       paths with two D in a row;
+//   INTG_MERGE   a D of both     every path: no edge is needed.
 // What escapes all strategies that aim is the paths for which each fails: a conjunction of
 //   first S (NEE fails), last S (splats fail), no D D (connections fail),
 // that is
@@ -88,8 +89,14 @@ std::vector<std::string> describe(unsigned paths, unsigned lights, const SceneOp
   return {fmt::format("anything lit by {}", names)};
 }
 
+/// Merging takes any light vertex near a D for the one that would hit it: every path with a D.
+bool merges(const Integrator& method) {
+  return method.wishes.has(INTG_MERGE);
+}
+
 /// Lights of which the method never draws what it does not aim at.
 unsigned never_found(const Integrator& method, const SceneOptics& scene) {
+  if (merges(method)) return 0;
   return counts_chance_hits(method) ? scene.lights & ~HITTABLE : scene.lights;
 }
 
@@ -122,6 +129,7 @@ std::vector<std::string> unreachable_paths(const Integrator& method, const Scene
 }
 
 std::vector<std::string> chance_paths(const Integrator& method, const SceneOptics& scene) {
+  if (merges(method)) return {};
   return describe(not_aimed_at(method), scene.lights & EMITTERS & ~never_found(method, scene),
                   scene);
 }

@@ -50,6 +50,7 @@ Integrator with_layers(Integrator method, uint kinds, uint longest) {
   if (!kinds) return method;
   PELLUCID_CHECK(longest >= 1 && longest <= LAYER_LENGTH_MAX, "a length that layers have");
   method.wishes.set(INTG_LAYERS);
+  if (kinds & LAYERS_TECH && method.wishes.has(INTG_MERGE)) kinds |= LAYERS_MERGE;
   method.layers = layer_set_of(kinds, longest, std::min(method.most_s, longest));
   for (Pass& pass : method.passes) {
     if (!pass.gathers) continue;
@@ -102,6 +103,11 @@ std::vector<LayerChannel> layer_channels(uint set) {
     });
     add_colour(fmt::format("tech.{}", rest), layer_of_weighted(set, 0, longest + 1), channels);
   }
+  for (uint k = 1; k <= longest && kinds & LAYERS_MERGE; ++k) {
+    const std::string name = fmt::format("merge.k{}", k);
+    add_colour(name, layer_of_merge(set, k), channels);
+    add_colour(name + ".unweighted", layer_of_merge_unweighted(set, k), channels);
+  }
   if (kinds & LAYERS_VERTICES)
     channels.push_back({"light.vertices", layer_of_vertices(set) * LAYER_WORDS, true});
   return channels;
@@ -145,6 +151,14 @@ Image strategy_atlas(const Layers& layers, int width, int height, std::uint64_t 
   std::vector<std::string> rows;
   for (uint depth = 1; depth <= longest; ++depth) rows.push_back(fmt::format("length {}", depth));
   rows.push_back("longer");
+  if (layer_kinds(set) & LAYERS_MERGE) {
+    rows.push_back("merged");
+    for (uint k = 1; k <= longest; ++k) {
+      const std::string label = fmt::format("at k={}", k);
+      add(true, longest + 1, k - 1, label, layer_of_merge(set, k));
+      add(false, longest + 1, k - 1, label, layer_of_merge_unweighted(set, k));
+    }
+  }
   return draw_atlas(width, height, rows, cells);
 }
 

@@ -54,10 +54,13 @@ INLINE void layer_add(LayerSink sink, real3 value, real weight, uint s, uint dep
     layer_put(sink, layer_of_unweighted(sink.set, s, depth), value);
 }
 
-/// Adds what a merge found as a path of `depth` segments: strategies by merging have no layers.
-INLINE void layer_merge(LayerSink sink, real3 value, real weight, uint depth) {
-  if (layer_kinds(sink.set) & LAYERS_LENGTH)
-    layer_put(sink, layer_of_length(sink.set, depth), value * weight);
+/// Adds what a merge at eye vertex k found as a path of `depth` segments.
+INLINE void layer_merge(LayerSink sink, real3 value, real weight, uint k, uint depth) {
+  uint kinds = layer_kinds(sink.set);
+  if (kinds & LAYERS_LENGTH) layer_put(sink, layer_of_length(sink.set, depth), value * weight);
+  if (!(kinds & LAYERS_MERGE)) return;
+  layer_put(sink, layer_of_merge(sink.set, k), value * weight);
+  if (k <= layer_longest(sink.set)) layer_put(sink, layer_of_merge_unweighted(sink.set, k), value);
 }
 
 /// The same for pixel (x, y) of the whole picture, from any work-item; nothing outside the tile.

@@ -32,7 +32,7 @@ INLINE real3 merge_cell(PRIVATE const SceneData* scene, Launch launch,
     if (!merge_vertices(scene, launch, eye, &light, &merge)) continue;
     sum += merge.value * merge.weight;
 #if INTG_LAYERS
-    layer_merge(sink, merge.value, merge.weight, eye->depth + light.depth);
+    layer_merge(sink, merge.value, merge.weight, eye->depth, eye->depth + light.depth);
 #endif
   }
   return sum;

@@ -13,6 +13,7 @@
 #define LAYERS_LENGTH 1u    // radiance by path length; one more for longer paths
 #define LAYERS_TECH 2u      // by strategy, weighted (one more for longer paths) and unweighted
 #define LAYERS_VERTICES 4u  // how many light vertices the camera sees in a pixel
+#define LAYERS_MERGE 8u     // with LAYERS_TECH: merges by eye vertex, weighted and unweighted
 
 /// Longest path length that may have layers of its own: some 1000 strategies.
 #define LAYER_LENGTH_MAX 30u
@@ -46,7 +47,8 @@ INLINE uint layer_strategies_below(uint set, uint depth) {
   return count;
 }
 
-// Order: lengths 1 .. N, longer | strategies weighted, longer | strategies unweighted | vertices.
+// Order: lengths 1 .. N, longer | strategies weighted, longer | strategies unweighted | merges at
+// eye vertices 1 .. N weighted | unweighted | vertices. Merges farther out are among the longer.
 
 INLINE uint layer_of_length(uint set, uint depth) {
   uint longest = layer_longest(set);
@@ -66,9 +68,20 @@ INLINE uint layer_of_unweighted(uint set, uint s, uint depth) {
   return layer_of_weighted(set, 0u, layer_longest(set) + 1u) + 1u +
          layer_strategies_below(set, depth) + s;
 }
-INLINE uint layer_of_vertices(uint set) {
+INLINE uint layer_first_merge(uint set) {
   if (!(layer_kinds(set) & LAYERS_TECH)) return layer_first_strategy(set);
   return layer_of_unweighted(set, 0u, layer_longest(set) + 1u);
+}
+/// Merges at eye vertex k >= 1, of any path length.
+INLINE uint layer_of_merge(uint set, uint k) {
+  uint longest = layer_longest(set);
+  return k > longest ? layer_of_weighted(set, 0u, longest + 1u) : layer_first_merge(set) + k - 1u;
+}
+INLINE uint layer_of_merge_unweighted(uint set, uint k) {
+  return layer_first_merge(set) + layer_longest(set) + k - 1u;
+}
+INLINE uint layer_of_vertices(uint set) {
+  return layer_first_merge(set) + (layer_kinds(set) & LAYERS_MERGE ? 2u * layer_longest(set) : 0u);
 }
 INLINE uint layer_count(uint set) {
   return layer_of_vertices(set) + (layer_kinds(set) & LAYERS_VERTICES ? 1u : 0u);

@@ -17,7 +17,7 @@ from harness import PELLUCID, QUICK, SOURCE, check, document, expect, run, run_t
 
 COMMANDS = ("render", "devices", "info", "compare", "bench", "merge", "kernels", "schema",
             "completion")
-METHODS = ("naive", "nee", "path", "reference", "light", "bdpt")
+METHODS = ("naive", "nee", "path", "reference", "light", "bdpt", "sppm", "vcm")
 
 
 def test_devices():

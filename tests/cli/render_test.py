@@ -14,7 +14,7 @@ sys.dont_write_bytecode = True
 from harness import (HEIGHT, QUICK, ROOM, SOURCE, WIDTH, check, document, expect, read_bytes, read_json,
                      run_tests, same_pixels, write_text)
 
-METHODS = ("naive", "nee", "path", "reference", "light", "bdpt")
+METHODS = ("naive", "nee", "path", "reference", "light", "bdpt", "sppm", "vcm")
 
 
 def stats_of(*options):
