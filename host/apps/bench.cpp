@@ -131,9 +131,10 @@ ExitCode BenchCommand::run_methods(const CommonOptions& common) const {
                                  "glass-caustic",    "hidden-light-room",     "keyhole"};
   if (!scenes_asked.empty()) names = scenes_asked;
   std::vector<Scene> scenes = open_scenes(names);
-  std::vector<const Integrator*> methods;
-  for (const char* name : {"path", "naive", "nee", "light", "bdpt"})
-    methods.push_back(&find_integrator(name));
+  std::vector<const Integrator*> methods{&find_integrator("path")};  // what gains are over
+  for (const Integrator& method : integrators())
+    if (&method != methods.front() && method.name != "reference")  // slow by design
+      methods.push_back(&method);
   const Device target = device.open();
   Progress progress("bench");
   MethodBenchOptions options;

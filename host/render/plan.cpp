@@ -106,6 +106,7 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
       sides_.push_back({side, trace,
                         buffers_.at(side + std::string("_last")).bytes() / sizeof(uint),
                         buffers_.at(side + std::string("_order")).bytes() / sizeof(uint)});
+  if (specialisation_.features.has(INTG_COMPACT)) check_compact(scene);
   const KernelFiles files(options_.kernel_dir);
   const std::string prelude = prelude_of(specialisation_);
   passes_.reserve(integrator.passes.size());

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "render/plan.h"
+#include "shared/pairing.h"
 
 namespace pellucid {
 namespace {
@@ -16,14 +17,15 @@ struct PathRange {
   uint first = 0, end = 0;
 };
 
-/// Light paths that the pixels of the slice are paired with (kernels/transport/connect.h).
+/// Light paths that the pixels of the slice are paired with.
 PathRange paired_paths(const Launch& launch) {
-  const std::uint64_t width = launch.width, pixels = width * launch.height;
-  const std::uint64_t row = launch.tile_y + launch.slice_first / launch.tile_width;
-  const std::uint64_t rows = launch.slice_count / launch.tile_width;
-  const std::uint64_t first = row * width + launch.tile_x;
-  const std::uint64_t last = (row + rows - 1) * width + launch.tile_x + launch.tile_width - 1;
-  return {uint(first * launch.light_paths / pixels), uint(last * launch.light_paths / pixels) + 1};
+  const uint pixels = launch.width * launch.height;
+  const uint row = launch.tile_y + launch.slice_first / launch.tile_width;
+  const uint rows = launch.slice_count / launch.tile_width;
+  const uint first = row * launch.width + launch.tile_x;
+  const uint last = (row + rows - 1) * launch.width + launch.tile_x + launch.tile_width - 1;
+  return {paired_light_path(first, pixels, launch.light_paths),
+          paired_light_path(last, pixels, launch.light_paths) + 1};
 }
 
 }  // namespace
@@ -137,6 +139,7 @@ bool Plan::make_room(const std::array<uint, 2>& needed) {
   }
   for (const auto& capacity : {grown, exact, least}) {
     const std::uint64_t all = capacity[0] + capacity[1];
+    if (std::max(capacity[0], capacity[1]) >= NONE) continue;  // slots are 32-bit numbers
     if (std::max(capacity[0], capacity[1]) * vertex > device_.info().max_buffer) continue;
     if (others + all * (vertex + sizeof(uint)) > memory_limit_) continue;
     resize(capacity);

@@ -82,7 +82,7 @@ __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
 #endif
                      rng, &w, &v);
 #if INTG_CONNECT
-      if (stored && w.depth + 2u <= launch.max_depth)
+      if (stored && w.depth + 2u <= limit)
         vertex_store(&store, &v, w.walk.beta, w.walk.partials, w.depth);
 #endif
     }

@@ -67,7 +67,7 @@ INLINE real partial_weight(uint heuristic, real light, real eye) {
 
 /// The sub-path arrives over `distance2` at a surface under |cos| to its geometric normal.
 INLINE void partials_arrive(PRIVATE Partials* q, real distance2, real cos_g) {
-  real inv = REAL(1.0) / cos_g;
+  real inv = r_min(REAL(1.0) / cos_g, REAL_MAX);
   q->dVCM = r_min(q->dVCM * distance2 * inv, REAL_MAX);
   q->dVC_scaled = r_min(q->dVC_scaled * inv, REAL_MAX);
 }
@@ -76,7 +76,7 @@ INLINE void partials_arrive(PRIVATE Partials* q, real distance2, real cos_g) {
 /// under |cos| to the geometric normal.
 INLINE void partials_scatter(uint heuristic, PRIVATE Partials* q, real forward, real reverse,
                              real cos_g) {
-  real inv = REAL(1.0) / forward;
+  real inv = r_min(REAL(1.0) / forward, REAL_MAX);
   real vcm = q->dVCM;  // over 2^(64 scale)
   if (q->scale > 0u) vcm = q->scale == 1u ? vcm * PARTIALS_SCALE_INV : REAL(0.0);
   real before = partial_sum(heuristic, q->dVC_scaled * reverse, vcm);

@@ -67,7 +67,7 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
   surface.ng = octahedral_unpack(s.ng);
   surface.ns = octahedral_unpack(s.ns);
   surface.offset = (real)float_from_bits((s.material >> 24) << 23);
-  surface.material = s.material & 0x7ffffu;
+  surface.material = s.material & (COMPACT_MATERIALS - 1u);
   surface.flags = (s.material >> 19) & 0x1fu;
   surface.light = NONE;
 #if FEAT_TEXTURE
