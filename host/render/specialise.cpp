@@ -26,16 +26,16 @@ void check_compact(const PackedScene& scene) {
   float largest = 1.0f;  // of spheres and disks
   for (float uv : scene.uvs) largest = std::max(largest, std::abs(uv));
   int exponent = 0;
-  std::frexp(largest, &exponent);
-  const double step = std::ldexp(1.0, exponent - 11);  // of halfs just below it
+  std::frexp(std::nextafter(largest, 0.0f), &exponent);
+  const double off = std::ldexp(0.5, exponent - 11);  // by the rounding of halfs just below it
   for (const ::Texture& t : scene.textures) {
     const double across = std::max(std::abs(t.scale_offset.x) * double(t.width),
                                    std::abs(t.scale_offset.y) * double(t.height));
-    if (step * across > 1)
+    if (off * across > 1)
       throw InputError(fmt::format(
-          "--vertices compact keeps texture coordinates as halfs: at {:.3g} their steps are {:.3g} "
+          "--vertices compact keeps texture coordinates as halfs: at {:.3g} they are off by {:.3g} "
           "texels of a texture of {}x{}; use --vertices full",
-          largest, step * across, t.width, t.height));
+          largest, off * across, t.width, t.height));
   }
 }
 
