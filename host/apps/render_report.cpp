@@ -122,7 +122,7 @@ nlohmann::json render_stats(const RenderFacts& f) {
   json passes = json::array();
   for (const PassState& p : f.session->plan().passes())
     passes.push_back(
-        {{"name", p.pass.name}, {"seconds", p.time.seconds}, {"launches", p.time.launches}});
+        {{"name", p.pass.name}, {"seconds", p.time->seconds}, {"launches", p.time->launches}});
   const double pixels = double(f.options.window().pixels());
   return {{"scene", f.scene->name},
           {"scene_hash", f.scene_hash},

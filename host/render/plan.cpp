@@ -169,7 +169,7 @@ void Plan::launch(PassState& state, const Launch& launch) {
       break;
   }
   state.kernel.set_bytes(state.launch_index, &launch, sizeof launch);
-  device_.launch(state.kernel, domain, state.group, &state.time);
+  device_.launch(state.kernel, domain, state.group, state.time);
 }
 
 PassState& Plan::pass_named(const std::string& name) {
