@@ -174,7 +174,8 @@ CommandRun setup_bench(CLI::App& app) {
       ->allow_extra_args(false);
   c->device.declare(app);
   c->device.declare_threads(app);
-  app.add_option("--repeats", c->repeats, "runs of each cell, for sampler seeds (default 7)")
+  app.add_option("--repeats", c->repeats,
+                 "runs of each cell; for render and sampler, seeds (default 7)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--kernel-dir", c->kernel_dir, "read kernels from this folder")->type_name("DIR");
   app.add_option("--baseline", c->baseline, "an earlier --json result to compare with")

@@ -51,7 +51,7 @@ void Plan::splat_paths(Launch launch, uint first, uint end) {
     launch.path_first = launch.splat_first = first;
     launch.path_count = std::min(most, end - first);
     launch.splat_end = first + launch.path_count;
-    this->launch(pass_named("light_trace"), launch);
+    this->launch(pass_named(sides_[0].trace), launch);
   }
 }
 

@@ -209,6 +209,7 @@ typedef struct PathVertex {
 } PathVertex;
 LAYOUT_CHECK(PathVertex, 96);
 
+#define COMPACT_MATERIAL_BITS 19u
 #define COMPACT_MATERIALS 0x80000u  // as many as a CompactVertex can tell apart
 /// The same in half the bytes, for short memory (transport/stored_vertex.h).
 typedef struct CompactVertex {
