@@ -131,9 +131,10 @@ ExitCode BenchCommand::run_methods(const CommonOptions& common) const {
                                  "glass-caustic",    "hidden-light-room",     "keyhole"};
   if (!scenes_asked.empty()) names = scenes_asked;
   std::vector<Scene> scenes = open_scenes(names);
-  std::vector<const Integrator*> methods;
-  for (const char* name : {"path", "naive", "nee", "light", "bdpt"})
-    methods.push_back(&find_integrator(name));
+  std::vector<const Integrator*> methods{&find_integrator("path")};  // what gains are over
+  for (const Integrator& method : integrators())
+    if (&method != methods.front() && method.name != "reference")  // slow by design
+      methods.push_back(&method);
   const Device target = device.open();
   Progress progress("bench");
   MethodBenchOptions options;
@@ -173,7 +174,8 @@ CommandRun setup_bench(CLI::App& app) {
       ->allow_extra_args(false);
   c->device.declare(app);
   c->device.declare_threads(app);
-  app.add_option("--repeats", c->repeats, "runs of each cell, for sampler seeds (default 7)")
+  app.add_option("--repeats", c->repeats,
+                 "runs of each cell; for render and sampler, seeds (default 7)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--kernel-dir", c->kernel_dir, "read kernels from this folder")->type_name("DIR");
   app.add_option("--baseline", c->baseline, "an earlier --json result to compare with")

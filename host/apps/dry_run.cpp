@@ -68,6 +68,12 @@ std::string as_text(const RenderFacts& f, FeatureSet features, const MemoryPlan&
       o.max_depth ? std::to_string(*o.max_depth) : "unlimited", settings_text(*f.scene, o),
       join(budget, " or "), f.device->spec(), f.device->name, f.device->platform_name,
       f.device->driver, features.describe(), join(kernels), memory_text(memory.buffers, *f.device));
+  if (f.integrator->uses(Bundle::light_vertices)) {
+    std::size_t bytes = 0;
+    for (const auto& [buffer, each] : vertex_buffers(*f.integrator, o.plan, "light")) bytes += each;
+    text += fmt::format("  vertices  {} bytes each; their buffers grow as the scene asks for it\n",
+                        bytes);
+  }
   if (memory.tiles.size() > 1) text += fmt::format("  bands     {}\n", memory.tiles.size());
   for (const std::string& blind : blind_spots(*f.integrator, f.optics(), integrators()))
     text += fmt::format("  unseen    {}\n", blind);
@@ -84,6 +90,7 @@ void tell_plan(const RenderFacts& f, const std::vector<std::string>& outputs,
   const RenderOptions& o = f.options;
   const MemoryPlan memory = plan_memory(*f.device, *f.packed, *f.integrator, o);
   const Specialisation special = specialise(*f.packed, *f.integrator, *f.device, o.plan);
+  if (special.features.has(INTG_COMPACT)) check_compact(*f.packed);
   const KernelFiles files(o.plan.kernel_dir);
   for (const Pass& pass : f.integrator->passes)  // a missing file shows
     files.expand("passes/" + pass.name + ".cl", prelude_of(special));

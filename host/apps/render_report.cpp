@@ -128,10 +128,10 @@ nlohmann::json render_stats(const RenderFacts& f) {
                                    [&](const json& row) { return row["name"] == p.pass.name; });
     if (same == passes.end()) {
       passes.push_back(
-          {{"name", p.pass.name}, {"seconds", p.time.seconds}, {"launches", p.time.launches}});
+          {{"name", p.pass.name}, {"seconds", p.time->seconds}, {"launches", p.time->launches}});
     } else {  // a kernel that runs more than once in an iteration
-      (*same)["seconds"] = (*same)["seconds"].get<double>() + p.time.seconds;
-      (*same)["launches"] = (*same)["launches"].get<std::uint64_t>() + p.time.launches;
+      (*same)["seconds"] = (*same)["seconds"].get<double>() + p.time->seconds;
+      (*same)["launches"] = (*same)["launches"].get<std::uint64_t>() + p.time->launches;
     }
   }
   const double pixels = double(f.options.window().pixels());

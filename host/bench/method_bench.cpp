@@ -35,7 +35,8 @@ std::vector<MethodCell> bench_one(const BenchScene& scene,
     cells[m].relmse_low = std::numeric_limits<double>::infinity();
   }
   for (int k = 0; k < o.repeats; ++k)
-    for (std::size_t m = 0; m < methods.size(); ++m) {
+    for (std::size_t turn = 0; turn < methods.size(); ++turn) {
+      const std::size_t m = (turn + std::size_t(k)) % methods.size();  // nobody is always first
       MethodCell& cell = cells[m];
       const BenchRun run = scene.render(*methods[m], Sampler::sobol, cell.spp, std::uint64_t(k));
       const double error = relmse_to(reference, run);

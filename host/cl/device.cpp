@@ -24,7 +24,7 @@ struct Device::Impl {
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;
-  std::vector<std::pair<cl::Event, PassTime*>> pending;
+  std::vector<std::pair<cl::Event, std::shared_ptr<PassTime>>> pending;
 
   template <typename F>
   auto guarded(const std::string& what, F&& call) {
@@ -176,13 +176,14 @@ Kernel Device::build(const std::string& name, const std::string& source,
   return out;
 }
 
-void Device::launch(const Kernel& kernel, std::size_t domain, std::size_t group, PassTime* time) {
+void Device::launch(const Kernel& kernel, std::size_t domain, std::size_t group,
+                    std::shared_ptr<PassTime> time) {
   const std::size_t global = (domain + group - 1) / group * group;
   impl_->guarded(fmt::format("launching '{}'", kernel.name()), [&] {
     cl::Event event;
     impl_->queue.enqueueNDRangeKernel(kernel.impl_->kernel, cl::NullRange, cl::NDRange(global),
                                       cl::NDRange(group), nullptr, &event);
-    if (time) impl_->pending.emplace_back(event, time);
+    if (time) impl_->pending.emplace_back(event, std::move(time));
   });
 }
 

@@ -84,7 +84,9 @@ class Device {
 
   /// Enqueues `kernel` over at least `domain` work-items in groups of `group`; `time` (may be null)
   /// grows at the next finish().
-  void launch(const Kernel& kernel, std::size_t domain, std::size_t group, PassTime* time);
+  /// The time is shared: whoever asked may be gone by then, as where an error ends a render.
+  void launch(const Kernel& kernel, std::size_t domain, std::size_t group,
+              std::shared_ptr<PassTime> time);
   void finish();
 
  private:

@@ -18,10 +18,10 @@
 //   first S (NEE fails), last S (splats fail), no D D (connections fail),
 // that is
 //   naive, reference   any path
-//   nee, path          L S+ D (D|S)* E                 caustics and what they light
-//   light              L (D|S)* D S+ E                 all that is seen in mirrors and through
-//   glass bdpt               L S+ (D S+)+ E                  caustics seen so:
-//   specular-diffuse-specular
+//   nee, path          L S+ D (D|S)* E     caustics and what they light
+//   light              L (D|S)* D S+ E     what is seen in mirrors and through glass
+//   bdpt               L S+ (D S+)+ E      caustics seen so: specular-diffuse-specular
+//
 // If the light is hittable, chance reaches those, except in `light`, whose camera counts emission
 // behind S alone. Shortest of the class: L D E, one S more for each end that has to be one.
 #include "integrators/reach.h"

@@ -9,6 +9,11 @@
 namespace pellucid {
 namespace {
 
+/// As a float, with digits to spare for its inverse.
+float power_of_two(int exponent) {
+  return std::ldexp(1.0f, std::clamp(exponent, -126, 126));
+}
+
 /// Steps per unit of radiance. A light path brings about power / radius^2 times what the camera
 /// makes of it, D^2 / light paths; a power of two keeps scaled scenes exact.
 float splat_scale(const PackedScene& scene, uint light_paths) {
@@ -17,8 +22,7 @@ float splat_scale(const PackedScene& scene, uint light_paths) {
   const double typical = scene.light_power / (r * r) * (distance * distance) / light_paths;
   int exponent = 0;
   if (typical > 0) std::frexp(typical, &exponent);
-  // The scale itself has to be a float.
-  return std::ldexp(1.0f, std::clamp(SPLAT_FRACTION_BITS - exponent, -126, 127));
+  return power_of_two(SPLAT_FRACTION_BITS - exponent);
 }
 
 }  // namespace
@@ -34,6 +38,7 @@ Launch make_launch(const PackedScene& scene, int width, int height, const Window
   launch.max_depth = NONE;
   launch.film_lsb = scene.brightness_exponent - FILM_FRACTION_BITS;
   launch.splat_scale = splat_scale(scene, launch.light_paths);
+  launch.layer_scale = power_of_two(LAYER_FRACTION_BITS - scene.brightness_exponent);
   return launch;
 }
 

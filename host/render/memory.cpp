@@ -69,20 +69,19 @@ std::size_t MemoryPlan::tile_pixels() const {
   return tiles.front().pixels();  // the last one may be smaller
 }
 
-uint slice_rows(std::size_t row_pixels, std::size_t tile_rows) {
-  // Enough work for any device, and few enough vertices to stay near its caches.
-  constexpr std::size_t enough = std::size_t{1} << 16;
-  return uint(std::clamp<std::size_t>(enough / std::max<std::size_t>(row_pixels, 1), 1,
-                                      std::max<std::size_t>(tile_rows, 1)));
-}
-
-std::size_t slice_paths(const RenderOptions& options, std::size_t slice_pixels) {
+std::size_t slice_paths(const RenderOptions& options, std::size_t rows) {
   // A slice of a crop spans what lies between its rows, too.
-  const std::size_t width = std::size_t(options.width), crop = std::size_t(options.window().width);
-  const double spanned = double(slice_pixels) / double(crop) * double(width);
+  const double pixels = double(rows) * double(options.width);
   const double ratio =
       double(options.light_path_count()) / (double(options.width) * double(options.height));
-  return std::size_t(spanned * ratio) + 2;
+  return std::size_t(pixels * ratio) + 2;
+}
+
+uint slice_rows(const RenderOptions& options, std::size_t tile_rows) {
+  // Enough work for any device, and few enough vertices to stay near its caches.
+  constexpr std::size_t enough = std::size_t{1} << 16;
+  const std::size_t row = std::max(std::size_t(options.window().width), slice_paths(options, 1));
+  return uint(std::clamp<std::size_t>(enough / row, 1, std::max<std::size_t>(tile_rows, 1)));
 }
 
 std::map<std::string, std::size_t> vertex_buffers(const Integrator& integrator,
@@ -120,14 +119,14 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
   if (integrator.uses(Bundle::aov)) bytes["aovs"] = pixels * sizeof(AovPixel);
   bytes["diag"] = DIAG_COUNT * sizeof(uint);
   if (integrator.uses(Bundle::splat)) bytes["splats"] = pixels * SPLAT_WORDS * sizeof(uint);
-  const std::size_t slice = slice_rows(row_pixels, rows) * row_pixels;
+  const std::size_t slice = slice_rows(options, rows);
   if (integrator.uses(Bundle::light_vertices))
-    add_vertices(
-        integrator, options.plan, "light",
-        integrator.uses(Bundle::grid) ? options.light_path_count() : slice_paths(options, slice),
-        bytes);
+    add_vertices(integrator, options.plan, "light",
+                 integrator.uses(Bundle::grid) ? std::size_t(options.light_path_count())
+                                               : slice_paths(options, slice),
+                 bytes);
   if (integrator.uses(Bundle::eye_vertices))
-    add_vertices(integrator, options.plan, "eye", slice, bytes);
+    add_vertices(integrator, options.plan, "eye", slice * row_pixels, bytes);
   if (integrator.uses(Bundle::grid)) {
     bytes["grid_digits"] = SORT_DIGITS * SORT_BLOCKS * sizeof(uint);
     bytes["grid_cells"] = (std::size_t{2} << grid_bits_for(options)) * sizeof(uint);
@@ -164,14 +163,15 @@ MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
     else
       high = middle - 1;
   }
-  // Where bands are needed at all, large ones gain nothing over these and crowd the host out.
+  // Where bands are needed at all, large ones crowd the host out and gain nothing over these, but
+  // for methods that trace all light paths anew in each.
   constexpr std::uint64_t enough = std::uint64_t{1} << 30;
-  if (low < window.height) {
+  if (low < window.height && !integrator.uses(Bundle::splat)) {
     const std::uint64_t row = total(sizes(2)) - total(sizes(1));
     low = int(std::min(std::uint64_t(low), std::max<std::uint64_t>(1, enough / row)));
   }
   plan.buffers = sizes(low);
-  plan.slice_rows = slice_rows(std::size_t(window.width), std::size_t(low));
+  plan.slice_rows = slice_rows(options, std::size_t(low));
   for (int row = 0; row < window.height; row += low)
     plan.tiles.push_back(
         {window.x0, window.y0 + row, window.width, std::min(low, window.height - row)});

@@ -27,12 +27,12 @@ struct MemoryPlan {
   std::size_t tile_pixels() const;  ///< of the largest tile
 };
 
-/// Rows of a tile in one slice, at most.
-uint slice_rows(std::size_t row_pixels, std::size_t tile_rows);
+/// Most light paths of one launch that stores their vertices: those that slices of so many rows are
+/// paired with.
+std::size_t slice_paths(const RenderOptions& options, std::size_t rows);
 
-/// Most light paths of one launch that stores their vertices: those that slices of so many pixels
-/// are paired with.
-std::size_t slice_paths(const RenderOptions& options, std::size_t slice_pixels);
+/// Rows of a tile in one slice, at most.
+uint slice_rows(const RenderOptions& options, std::size_t tile_rows);
 
 /// Buffers that have a place for every vertex of a side ("light" or "eye"), and its bytes.
 std::map<std::string, std::size_t> vertex_buffers(const Integrator& integrator,

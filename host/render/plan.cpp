@@ -113,6 +113,7 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
       sides_.push_back({side, trace, vertex_buffers(integrator, options_, side),
                         buffers_.at(side + std::string("_last")).bytes() / sizeof(uint),
                         buffers_.at(side + std::string("_order")).bytes() / sizeof(uint)});
+  if (specialisation_.features.has(INTG_COMPACT)) check_compact(scene);
   const KernelFiles files(options_.kernel_dir);
   const std::string prelude = prelude_of(specialisation_);
   passes_.reserve(integrator.passes.size());
@@ -181,7 +182,7 @@ void Plan::launch(PassState& state, Launch launch) {
       break;
   }
   state.kernel.set_bytes(state.launch_index, &launch, sizeof launch);
-  device_.launch(state.kernel, domain, state.group, &state.time);
+  device_.launch(state.kernel, domain, state.group, state.time);
 }
 
 PassState& Plan::pass_named(const std::string& name) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct PassState {
   Kernel kernel;
   std::size_t group = 1;      ///< work-items per group
   unsigned launch_index = 0;  ///< parameter index of the launch struct
-  PassTime time;
+  std::shared_ptr<PassTime> time = std::make_shared<PassTime>();
 };
 
 /// Parameter names of a pass in order, as its kernel declares them.

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "render/plan.h"
+#include "shared/pairing.h"
 
 namespace pellucid {
 namespace {
@@ -16,14 +17,15 @@ struct PathRange {
   uint first = 0, end = 0;
 };
 
-/// Light paths that the pixels of the slice are paired with (kernels/transport/connect.h).
+/// Light paths that the pixels of the slice are paired with.
 PathRange paired_paths(const Launch& launch) {
-  const std::uint64_t width = launch.width, pixels = width * launch.height;
-  const std::uint64_t row = launch.tile_y + launch.slice_first / launch.tile_width;
-  const std::uint64_t rows = launch.slice_count / launch.tile_width;
-  const std::uint64_t first = row * width + launch.tile_x;
-  const std::uint64_t last = (row + rows - 1) * width + launch.tile_x + launch.tile_width - 1;
-  return {uint(first * launch.light_paths / pixels), uint(last * launch.light_paths / pixels) + 1};
+  const uint pixels = launch.width * launch.height;
+  const uint row = launch.tile_y + launch.slice_first / launch.tile_width;
+  const uint rows = launch.slice_count / launch.tile_width;
+  const uint first = row * launch.width + launch.tile_x;
+  const uint last = (row + rows - 1) * launch.width + launch.tile_x + launch.tile_width - 1;
+  return {paired_light_path(first, pixels, launch.light_paths),
+          paired_light_path(last, pixels, launch.light_paths) + 1};
 }
 
 }  // namespace
@@ -49,7 +51,7 @@ void Plan::splat_paths(Launch launch, uint first, uint end) {
     launch.path_first = launch.splat_first = first;
     launch.path_count = std::min(most, end - first);
     launch.splat_end = first + launch.path_count;
-    this->launch(pass_named("light_trace"), launch);
+    this->launch(pass_named(sides_[0].trace), launch);
   }
 }
 
@@ -188,6 +190,7 @@ bool Plan::make_room(const std::array<uint, 2>& needed) {
   for (const auto& capacity : {grown, exact, least}) {
     std::uint64_t all = others, largest = 0;
     for (std::size_t i = 0; i < sides_.size(); ++i) {
+      if (capacity[i] >= NONE) all = memory_limit_ + 1;  // slots are 32-bit numbers
       all += capacity[i] * sides_[i].bytes();
       for (const auto& [name, each] : sides_[i].per_vertex)
         largest = std::max<std::uint64_t>(largest, capacity[i] * each);

@@ -48,7 +48,7 @@ Session::Session(const Device& device, const PackedScene& scene, const Integrato
   launch_.max_depth = options_.max_depth.value_or(NONE);
   launch_.mis = options_.mis;
   launch_.layer_set = integrator.layers;
-  film_.layers = Layers(integrator.layers, launch_.splat_scale, film_.pixels.size());
+  film_.layers = Layers(integrator.layers, launch_.layer_scale, film_.pixels.size());
   device_has_film_ = !start && memory_.tiles.size() == 1;  // both black
   if (start) {
     PELLUCID_CHECK(start->window == film_.window && start->lsb == film_.lsb &&

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
 
 namespace pellucid {
 
@@ -11,6 +14,29 @@ int simd_width_for(const DeviceInfo& device) {
   // PoCL reports the widest unit of the CPU: 16 with AVX-512, 8 with AVX, 4 with SSE or NEON.
   if (device.native_float_width >= 16) return 16;
   return device.native_float_width >= 8 ? 8 : 4;
+}
+
+void check_compact(const PackedScene& scene) {
+  if (scene.materials.size() > COMPACT_MATERIALS)
+    throw InputError(
+        fmt::format("--vertices compact holds {} materials, and the scene has {}; use "
+                    "--vertices full",
+                    COMPACT_MATERIALS, scene.materials.size()));
+  if (!scene.features.has(FEAT_TEXTURE)) return;
+  float largest = 1.0f;  // of spheres and disks
+  for (float uv : scene.uvs) largest = std::max(largest, std::abs(uv));
+  int exponent = 0;
+  std::frexp(std::nextafter(largest, 0.0f), &exponent);
+  const double off = std::ldexp(0.5, exponent - 11);  // by the rounding of halfs just below it
+  for (const ::Texture& t : scene.textures) {
+    const double across = std::max(std::abs(t.scale_offset.x) * double(t.width),
+                                   std::abs(t.scale_offset.y) * double(t.height));
+    if (off * across > 1)
+      throw InputError(fmt::format(
+          "--vertices compact keeps texture coordinates as halfs: at {:.3g} they are off by {:.3g} "
+          "texels of a texture of {}x{}; use --vertices full",
+          largest, off * across, t.width, t.height));
+  }
 }
 
 std::string prelude_of(const Specialisation& s) {

@@ -22,6 +22,9 @@ struct Specialisation {
 /// Node width for a device: its native float vector, within what the layout offers.
 int simd_width_for(const DeviceInfo& device);
 
+/// Throws InputError where path vertices in half the bytes cannot hold what the scene has.
+void check_compact(const PackedScene& scene);
+
 /// The -D prelude as source text: every flag always defined, in list order.
 std::string prelude_of(const Specialisation& s);
 /// Options for the device compiler.

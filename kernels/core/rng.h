@@ -16,10 +16,9 @@
 #define DIM_LIGHT_WALK 0x09e30000u
 #define DIM_EMIT_POINT DIM_LIGHT_WALK            /* x w pick, y z point */
 #define DIM_EMIT_DIRECTION (DIM_LIGHT_WALK + 1u) /* x y direction, z side */
-#define DIM_LIGHT_WALK_BSDF(bounce) (DIM_LIGHT_WALK + 2u + 2u * (bounce)) /* as DIM_BSDF */
-#define DIM_LIGHT_WALK_SPLAT(bounce)                           \
-  (DIM_LIGHT_WALK + 3u + 2u * (bounce)) /* x y pixel by filter \
-                                         */
+/* As DIM_BSDF; and x y, by which the filter picks a splat's pixel. */
+#define DIM_LIGHT_WALK_BSDF(bounce) (DIM_LIGHT_WALK + 2u + 2u * (bounce))
+#define DIM_LIGHT_WALK_SPLAT(bounce) (DIM_LIGHT_WALK + 3u + 2u * (bounce))
 
 /// Four numbers in [0, 1), multiples of 2^-24 (so that 1 is never reached).
 typedef struct Random4 {

@@ -29,6 +29,13 @@ INLINE void film_add_channel(GLOBAL FilmPixel* pixel, int c, WideValue v) {
 #endif
 }
 
+/// Adds rays, of which there may be more than 2^32, to the pixel's number of them.
+INLINE void film_count(GLOBAL FilmPixel* pixel, uint low, uint high) {
+  uint sum = pixel->count[1] + low;
+  pixel->count[1] = sum;
+  pixel->count[2] += high + (sum < low ? 1u : 0u);
+}
+
 /// Adds one iteration's value of a pixel (w: its rays). A non-finite or negative value is dropped
 /// (its pixel gets 0 for the iteration) and counted.
 INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, Launch launch, F4 sample) {
@@ -46,11 +53,8 @@ INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, Launch l
 #if INTG_SOBOL
   if (launch.block_ends) film_end_block(pixel);
 #endif
-  uint rays = (uint)sample.w;
-  uint low = pixel->count[1] + rays;
+  film_count(pixel, (uint)sample.w, 0u);
   pixel->count[0] += 1u;
-  pixel->count[1] = low;
-  pixel->count[2] += low < rays ? 1u : 0u;
 }
 
 #if PELLUCID_DEVICE

@@ -22,7 +22,7 @@ INLINE LayerSink layer_sink(GLOBAL uint* layers, GLOBAL uint* diag, Launch launc
   sink.words = layers + (size_t)pixel * (layer_count(launch.layer_set) * LAYER_WORDS);
   sink.diag = diag;
   sink.set = launch.layer_set;
-  sink.scale = launch.splat_scale;
+  sink.scale = launch.layer_scale;
   return sink;
 }
 

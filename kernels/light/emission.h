@@ -31,35 +31,10 @@ INLINE EmitSample emit_none(uint light) {
 }
 
 #if FEAT_LIGHT_TRIANGLE || FEAT_LIGHT_SPHERE || FEAT_LIGHT_DISK
-/// A point of the emitter, uniform by area.
-INLINE Surface emit_point(PRIVATE const SceneData* scene, Light light, real u, real v) {
-  Surface s;
-#if FEAT_LIGHT_TRIANGLE
-  if (light.kind == LIGHT_TRIANGLE) {
-    Triangle tri = scene->triangles[light.prim];
-    surface_shape(scene, tri.shape, light.prim, &s);
-    s.flags &= ~SHAPE_SMOOTH;
-    real3 b = warp_triangle(u, v);
-    triangle_point(scene, tri, b.y, b.z, &s);
-    return s;
-  }
-#endif
-  Quadric q = scene->quadrics[light.prim - scene->info.triangle_count];
-  surface_shape(scene, q.shape, light.prim, &s);
-  if (light.kind == LIGHT_SPHERE) {
-    sphere_point(q.center_radius, warp_sphere(u, v), &s);
-  } else {
-    real3 offset = warp_disk(u, v) * (real)q.center_radius.w;
-    disk_point(q, load3(q.center_radius) + to_world(frame_from_normal(load3(q.normal)), offset),
-               &s);
-  }
-  return s;
-}
-
 /// A surface light: a point by area; a direction by its cosine, on either side if both emit.
 INLINE void emit_surface(PRIVATE const SceneData* scene, Light light, Random4 point,
                          Random4 direction, PRIVATE EmitSample* e) {
-  Surface s = emit_point(scene, light, point.y, point.z);
+  Surface s = light_point(scene, light, point.y, point.z);
   int front = (s.flags & SHAPE_EMIT_FRONT) != 0u;
   if (front && (s.flags & SHAPE_EMIT_BACK)) front = direction.z < REAL(0.5);
   Frame frame = frame_from_normal(front ? s.ng : -s.ng);

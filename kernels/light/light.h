@@ -133,15 +133,35 @@ INLINE void sample_surface_point(PRIVATE const SceneData* scene, Light light, re
 #endif
 }
 
-INLINE void sample_triangle_light(PRIVATE const SceneData* scene, Light light, real3 p, U4 words,
-                                  PRIVATE LightSample* out) {
-  real u = rng_unit(words.y), v = rng_unit(words.z);
-  Triangle tri = scene->triangles[light.prim];
+/// A point of an emitting surface, uniform by area.
+INLINE Surface light_point(PRIVATE const SceneData* scene, Light light, real u, real v) {
   Surface s;
-  surface_shape(scene, tri.shape, light.prim, &s);
-  s.flags &= ~SHAPE_SMOOTH;
-  real3 b = warp_triangle(u, v);
-  triangle_point(scene, tri, b.y, b.z, &s);
+#if FEAT_LIGHT_TRIANGLE
+  if (light.kind == LIGHT_TRIANGLE) {
+    Triangle tri = scene->triangles[light.prim];
+    surface_shape(scene, tri.shape, light.prim, &s);
+    s.flags &= ~SHAPE_SMOOTH;
+    real3 b = warp_triangle(u, v);
+    triangle_point(scene, tri, b.y, b.z, &s);
+    return s;
+  }
+#endif
+  Quadric q = scene->quadrics[light.prim - scene->info.triangle_count];
+  surface_shape(scene, q.shape, light.prim, &s);
+  if (light.kind == LIGHT_SPHERE) {
+    sphere_point(q.center_radius, warp_sphere(u, v), &s);
+  } else {
+    real3 offset = warp_disk(u, v) * (real)q.center_radius.w;
+    disk_point(q, load3(q.center_radius) + to_world(frame_from_normal(load3(q.normal)), offset),
+               &s);
+  }
+  return s;
+}
+
+/// Triangles and disks, by area.
+INLINE void sample_area_light(PRIVATE const SceneData* scene, Light light, real3 p, U4 words,
+                              PRIVATE LightSample* out) {
+  Surface s = light_point(scene, light, rng_unit(words.y), rng_unit(words.z));
   sample_surface_point(scene, light, p, &s, out);
 }
 
@@ -150,9 +170,7 @@ INLINE void sample_sphere_light(PRIVATE const SceneData* scene, Light light, rea
   real u = rng_unit(words.y), v = rng_unit(words.z);
   Quadric q = scene->quadrics[light.prim - scene->info.triangle_count];
   Surface s;
-  surface_shape(scene, q.shape, light.prim, &s);
   real sin2_max, one_minus_cos;
-  real3 n;
   if (sphere_cone(q.center_radius, p, &sin2_max, &one_minus_cos)) {
     // Angle alpha at the centre between the axis and the point seen under theta [PBRT4 6.2.4].
     real x = u * one_minus_cos;  // 1 - cos(theta)
@@ -163,27 +181,15 @@ INLINE void sample_sphere_light(PRIVATE const SceneData* scene, Light light, rea
     real sin_alpha = safe_sqrt((REAL(1.0) - cos_alpha) * (REAL(1.0) + cos_alpha));
     SinCos phi = sincos_2pi(v);
     Frame frame = frame_from_normal(normalize3(p - load3(q.center_radius)));
-    n = normalize3(to_world(frame, REAL3(sin_alpha * phi.c, sin_alpha * phi.s, cos_alpha)));
+    real3 n = normalize3(to_world(frame, REAL3(sin_alpha * phi.c, sin_alpha * phi.s, cos_alpha)));
     out->pdf_w = (real)light.prob_pick / (TWO_PI * one_minus_cos);
     // Nothing of a sphere lies before the point seen; at the rim rounding may say otherwise.
     out->aim = light.prim + 1u;
+    surface_shape(scene, q.shape, light.prim, &s);
+    sphere_point(q.center_radius, n, &s);
   } else {
-    n = warp_sphere(u, v);
+    s = light_point(scene, light, u, v);
   }
-  sphere_point(q.center_radius, n, &s);
-  sample_surface_point(scene, light, p, &s, out);
-}
-
-INLINE void sample_disk_light(PRIVATE const SceneData* scene, Light light, real3 p, U4 words,
-                              PRIVATE LightSample* out) {
-  real u = rng_unit(words.y), v = rng_unit(words.z);
-  Quadric q = scene->quadrics[light.prim - scene->info.triangle_count];
-  Surface s;
-  surface_shape(scene, q.shape, light.prim, &s);
-  disk_point(q,
-             load3(q.center_radius) + to_world(frame_from_normal(load3(q.normal)),
-                                               warp_disk(u, v) * (real)q.center_radius.w),
-             &s);
   sample_surface_point(scene, light, p, &s, out);
 }
 
@@ -253,7 +259,7 @@ INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, U4 word
   switch (light.kind) {
 #if FEAT_LIGHT_TRIANGLE
     case LIGHT_TRIANGLE:
-      sample_triangle_light(scene, light, p, words, &out);
+      sample_area_light(scene, light, p, words, &out);
       break;
 #endif
 #if FEAT_LIGHT_SPHERE
@@ -263,7 +269,7 @@ INLINE LightSample light_sample(PRIVATE const SceneData* scene, real3 p, U4 word
 #endif
 #if FEAT_LIGHT_DISK
     case LIGHT_DISK:
-      sample_disk_light(scene, light, p, words, &out);
+      sample_area_light(scene, light, p, words, &out);
       break;
 #endif
 #if FEAT_LIGHT_POINT

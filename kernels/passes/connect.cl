@@ -1,8 +1,9 @@
-// connect: joins every vertex of a pixel's eye path with every vertex of the light path paired with
-// it. Reads: scene, light and eye vertices with their order. Writes: samples [pixels of the tile]
-// (adds), layers, diag. Domain: pixels of the slice. Atomics: layers, diag. Next: film_add. Flags:
-// INTG_COMPACT, INTG_LAYERS.
+// connect: joins each vertex of a pixel's eye path with each of the light path paired with it.
+// Reads: scene, light and eye vertices with their order. Writes: samples [pixels of the tile]
+// (adds), layers, diag. Domain: pixels of the slice. Atomics: layers, diag. Next: film_add.
+// Flags: INTG_CONNECT, INTG_COMPACT, INTG_LAYERS.
 #include "passes/bundles.h"
+#include "shared/pairing.h"
 #include "transport/connect.h"
 
 __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARAMS
@@ -16,7 +17,9 @@ __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PA
   uint pixel = launch.slice_first + index;
   uint column = launch.tile_x + pixel % launch.tile_width;
   uint row = launch.tile_y + pixel / launch.tile_width;
-  uint path = paired_light_path(launch, row * launch.width + column) - launch.path_first;
+  uint path = paired_light_path(row * launch.width + column, launch.width * launch.height,
+                                launch.light_paths) -
+              launch.path_first;
   uint light_end = light_first[path + 1u];
   real3 sum = (float3)(0.0f);
   uint rays = 0u;
@@ -26,7 +29,7 @@ __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PA
     for (uint j = light_first[path]; j < light_end; ++j) {
       __global const StoredVertex* light_at = (__global const StoredVertex*)light_vertices;
       EndVertex light = vertex_unpack(&scene_data, light_at[light_order[j]], 1);
-      if (eye.depth + light.depth + 1u > launch.max_depth) break;
+      if (eye.depth + light.depth + 1u > depth_limit(launch)) break;
       Connection link;
       if (!connect_vertices(&scene_data, launch, &eye, &light, &link)) continue;
       ++rays;

@@ -17,7 +17,7 @@ __kernel void film_add(FILM_PARAMS
   sample.x += splat_value(word, launch.splat_scale);
   sample.y += splat_value(word + 2, launch.splat_scale);
   sample.z += splat_value(word + 4, launch.splat_scale);
-  sample.w += (float)word[6];  // fewer than 2^24: exact
+  film_count(&film[pixel], word[6], word[7]);
   for (int i = 0; i < SPLAT_WORDS; ++i) word[i] = 0u;
 #endif
   film_accumulate(&film[pixel], diag, launch, sample);

@@ -1,9 +1,9 @@
 // light_trace: walks from the lights. Each vertex with a spread lobe is splatted to the pixel that
-// sees it, and stored for connections. Reads: scene, filter. Writes: splats [pixels of the tile],
-// light_vertices, light_last, light_first (their number) [paths of the launch], vertex_counts,
-// layers, diag. Domain: light paths of the launch. Atomics: splats, vertex_counts, layers, diag.
-// Next: vertex_scan, or film_add. Flags: INTG_CONNECT, INTG_COMPACT, INTG_LAYERS, INTG_SOBOL,
-// INTG_FILTER.
+// sees it, and stored for connections.
+// Reads: scene, filter. Writes: splats [pixels of the tile], light_vertices, light_last,
+// light_first (their number) [paths of the launch], vertex_counts, layers, diag. Domain: light
+// paths of the launch. Atomics: splats, vertex_counts, layers, diag. Next: vertex_scan, or
+// film_add. Flags: INTG_CONNECT, INTG_COMPACT, INTG_LAYERS, INTG_SOBOL, INTG_FILTER.
 #include "film/layers.h"
 #include "passes/bundles.h"
 #include "transport/light_walk.h"

@@ -1,6 +1,6 @@
 // probe_splat: splats a list of values in work-item order, for the test that sums do not depend on
-// it. Reads: values [n] (rgb and, in w, the pixel). Writes: splats [pixels][3][2], diag. Domain: n
-// values. Atomics: splats, diag. Next: film_add.
+// it. Reads: values [n] (rgb and, in w, the pixel). Writes: splats [pixels][r g b rays][2], diag.
+// Domain: n values. Atomics: splats, diag. Next: film_add.
 #include "film/film.h"
 #include "passes/bundles.h"
 

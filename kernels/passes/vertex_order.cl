@@ -4,7 +4,7 @@
 // connect.
 // Flags: INTG_COMPACT.
 #include "passes/bundles.h"
-#include "transport/stored_vertex.h"
+#include "transport/vertex_format.h"
 
 INLINE void order_path(__global const StoredVertex* vertices, __global const uint* first,
                        __global const uint* last, __global uint* order, uint i) {

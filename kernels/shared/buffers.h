@@ -66,16 +66,16 @@
 #define DIAG_BUFFERS(X) X(uint, diag, "counters of what went wrong [DIAG_COUNT]")
 
 // Counters: X(name, is an error, meaning). Errors fail a render under --strict.
-#define DIAG_COUNTERS(X)                                                                  \
-  X(nonfinite, 1, "samples dropped because they were NaN or infinite")                    \
-  X(nonfinite_vertex, 1, "walks ended because a normal or direction was NaN or infinite") \
-  X(negative, 1, "samples dropped because they were negative")                            \
-  X(stack_overflow, 1, "BVH subtrees skipped because the traversal stack was full")       \
-  X(path_stuck, 1, "paths ended by the hard limit on path length")                        \
-  X(film_saturated, 1, "samples cut because they exceed the film's range")                \
-  X(splat_outside, 1, "splats dropped because their pixel is outside the film")           \
-  X(splat_saturated, 1, "splats cut because they exceed the fixed-point range")           \
-  X(layer_dropped, 1, "parts of layers dropped: they were NaN, infinite or negative")     \
+#define DIAG_COUNTERS(X)                                                                     \
+  X(nonfinite, 1, "samples dropped because they were NaN or infinite")                       \
+  X(nonfinite_vertex, 1, "walks ended because a normal or direction was NaN or infinite")    \
+  X(negative, 1, "samples dropped because they were negative")                               \
+  X(stack_overflow, 1, "BVH subtrees skipped because the traversal stack was full")          \
+  X(path_stuck, 1, "paths ended by the hard limit on path length")                           \
+  X(film_saturated, 1, "samples cut because they exceed the film's range")                   \
+  X(splat_outside, 1, "splats dropped because their pixel is outside the film")              \
+  X(splat_saturated, 1, "splats cut, or sums of them wrapped, beyond the fixed-point range") \
+  X(layer_dropped, 1, "parts of layers dropped: they were NaN, infinite or negative")        \
   X(layer_saturated, 1, "parts of layers cut because they exceed the fixed-point range")
 
 #define DIAG_ENUM(name, error, meaning) DIAG_##name,

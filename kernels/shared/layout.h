@@ -179,10 +179,11 @@ typedef struct Launch {
   uint max_depth;                // segments; an emitter seen directly has 1
   uint mis;                      // MIS_*
   float splat_scale;             // fixed-point steps per unit of radiance, a power of two
+  float layer_scale;             // the same of layers
   int film_lsb;                  // exponent of the film's step: sums count multiples of 2^film_lsb
   uint block_ends;               // 1: this iteration completes its block
   uint layer_set;                // layers that are kept apart (shared/layers.h)
-  uint pad0, pad1;
+  uint pad0;
   uint window_x, window_y;            // the rendered part of the picture: tiles are parts of it
   uint window_width, window_height;   // pixels
   uint slice_first, slice_count;      // pixels of the tile that passes over slices are about
@@ -217,6 +218,8 @@ typedef struct PathVertex {
 } PathVertex;
 LAYOUT_CHECK(PathVertex, 96);
 
+#define COMPACT_MATERIAL_BITS 19u
+#define COMPACT_MATERIALS 0x80000u  // as many as a CompactVertex can tell apart
 /// The same in half the bytes, for short memory (transport/stored_vertex.h).
 typedef struct CompactVertex {
   float x, y, z;    // world units

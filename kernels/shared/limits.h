@@ -79,11 +79,15 @@
 #define SCAN_GROUP 256
 
 /// Splats count steps of 2^-36 of what the lights' whole power gives a white surface at a distance
-/// of the scene's radius (PackedScene.splat_exponent): dim ones keep 8 bits down to 2^-28 of it.
+/// of the scene's radius (host/render/launch.cpp): dim ones keep 8 bits down to 2^-28 of it.
 #define SPLAT_FRACTION_BITS 36
-/// Largest splat in those steps: 2^20 times that power; 2^8 of them fit into a pixel's 64 bits, and
-/// sums beyond are counted.
-#define SPLAT_FIXED_MAX 72057594037927936.0f /* 2^56 */
+/// Largest splat or part of a layer, in steps: 2^26 times that power. Sums that leave a pixel's 64
+/// bits are counted.
+#define SPLAT_FIXED_MAX 4611686018427387904.0f /* 2^62 */
+
+/// Layers count steps of 2^-44 of the brightest light, seen by the camera or lighting a surface,
+/// and all passes add up in 64 bits: 2^20 passes of the brightest fit.
+#define LAYER_FRACTION_BITS 44
 
 /// Film sums count steps of 2^-56 of the brightest light (Launch.film_lsb), to which samples are
 /// rounded: they keep 24 bits down to 2^-32 of it, 8 bits down to 2^-48.

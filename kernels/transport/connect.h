@@ -16,6 +16,8 @@ typedef struct Connection {
 INLINE int connect_vertices(PRIVATE const SceneData* scene, Launch launch,
                             PRIVATE const EndVertex* eye, PRIVATE const EndVertex* light,
                             PRIVATE Connection* link) {
+  // Vertices are packed: what grazed a surface may come back from behind it.
+  if (eye->v.black || light->v.black) return 0;
   real3 d = light->v.surface.p - eye->v.surface.p;
   real d2 = dot3(d, d);
   if (!(d2 > REAL(0.0))) return 0;
@@ -37,13 +39,6 @@ INLINE int connect_vertices(PRIVATE const SceneData* scene, Launch launch,
       partials_end(launch, eye->partials, l.pdf_w * survive_l * cos_g_eye / d2, reverse_e));
   real3 target = spawn_origin(light->v.surface.p, light->v.surface.ng, light->v.surface.offset, -w);
   return shadow_ray(&eye->v.surface, w, target, &link->ray);
-}
-
-/// Light path with which the pixel (of the whole picture, row by row) connects.
-INLINE uint paired_light_path(Launch launch, uint pixel) {
-  uint pixels = launch.width * launch.height;
-  if (launch.light_paths == pixels) return pixel;
-  return (uint)((ulong)pixel * launch.light_paths / pixels);
 }
 
 #endif

@@ -73,7 +73,7 @@ INLINE real partial_weight(uint heuristic, real light, real eye) {
 
 /// The sub-path arrives over `distance2` at a surface under |cos| to its geometric normal.
 INLINE void partials_arrive(PRIVATE Partials* q, real distance2, real cos_g) {
-  real inv = REAL(1.0) / cos_g;
+  real inv = r_min(REAL(1.0) / cos_g, REAL_MAX);
   q->dVCM = r_min(q->dVCM * distance2 * inv, REAL_MAX);
   q->dVC_scaled = r_min(q->dVC_scaled * inv, REAL_MAX);
 #if INTG_MERGE
@@ -86,7 +86,7 @@ INLINE void partials_arrive(PRIVATE Partials* q, real distance2, real cos_g) {
 INLINE void partials_scatter(Launch launch, PRIVATE Partials* q, real forward, real reverse,
                              real cos_g) {
   uint heuristic = launch.mis;
-  real inv = REAL(1.0) / forward;
+  real inv = r_min(REAL(1.0) / forward, REAL_MAX);
 #if INTG_MERGE
   real merged = partial_sum(heuristic, q->dVM * reverse, q->dVCM * (real)launch.mis_vc);
   merged = partial_sum(heuristic, merged, REAL(1.0));

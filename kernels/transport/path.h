@@ -57,7 +57,7 @@ INLINE void walk_emission(PRIVATE const SceneData* scene, Launch launch, PRIVATE
   real3 emitted = light_emitted(scene, s, -walk->ray.d);
   if (is_black(emitted)) return;
   real pdf_light = REAL(0.0), emit = REAL(0.0);
-#if INTG_MIS
+#if INTG_MIS || INTG_CONNECT
   if (walk->pdf_w > REAL(0.0))
     pdf_light = light_pdf_surface(scene, s->light, s->p, s->ng, walk->p_prev, walk->ray.d);
 #endif

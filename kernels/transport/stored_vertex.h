@@ -5,12 +5,7 @@
 #include "core/codes.h"
 #include "transport/partials.h"
 #include "transport/vertex.h"
-
-#if INTG_COMPACT
-typedef CompactVertex StoredVertex;
-#else
-typedef PathVertex StoredVertex;
-#endif
+#include "transport/vertex_format.h"
 
 /// Where a sub-path puts its vertices.
 typedef struct VertexStore {
@@ -44,7 +39,7 @@ INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q,
   s.x = (float)v->surface.p.x;
   s.y = (float)v->surface.p.y;
   s.z = (float)v->surface.p.z;
-  s.material = v->surface.material | (v->surface.flags << 19) |
+  s.material = v->surface.material | (v->surface.flags << COMPACT_MATERIAL_BITS) |
                (float_exponent_above((float)v->surface.offset) << 24);
   s.ng = octahedral_pack(v->surface.ng);
   s.ns = octahedral_pack(v->surface.ns);
@@ -72,8 +67,8 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
   surface.ng = octahedral_unpack(s.ng);
   surface.ns = octahedral_unpack(s.ns);
   surface.offset = (real)float_from_bits((s.material >> 24) << 23);
-  surface.material = s.material & 0x7ffffu;
-  surface.flags = (s.material >> 19) & 0x1fu;
+  surface.material = s.material & (COMPACT_MATERIALS - 1u);
+  surface.flags = (s.material >> COMPACT_MATERIAL_BITS) & 0x1fu;
   surface.light = NONE;
 #if FEAT_TEXTURE
   surface.u = (real)half_unpack(s.uv & 0xffffu);

@@ -89,8 +89,11 @@ def test_other_shells():
             file.write(expect(0, ["completion", shell])[0])
         with open(name, encoding="utf-8") as file:
             text = file.read()
-        for word in ("cornell-box", "tonemap", " ".join(methods), "srgb filmic none", "render"):
+        for word in ("cornell-box", "tonemap", "srgb filmic none", "render"):
             check(word in text, f"{name} has {word}", text)
+        offered = re.search(r"integrator.*?((?:\b(?:" + "|".join(methods) + r")\b ?){" + str(len(methods)) + "})",
+                            text, re.DOTALL)
+        check(offered and sorted(offered.group(1).split()) == sorted(methods), f"{name} has methods", text)
         if shutil.which(shell):
             done = subprocess.run([shell, "-n", name], capture_output=True, text=True, check=False)
             check(done.returncode == 0, f"{name} is {shell}", done.stderr)

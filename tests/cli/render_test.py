@@ -133,6 +133,10 @@ def test_sub_paths():
     expect(2, [*QUICK, "--light-paths", "64"], "--light-paths", "'path'")
     expect(2, [*QUICK, "-i", "light", "--light-paths", "0"], "--light-paths")
     expect(2, [*QUICK, "-i", "light", "--vertices", "compact"], "--vertices", "'light'")
+    tiled = ["textures", "--size", "16x12", "--spp", "1", "-i", "bdpt", "--vertices", "compact"]
+    expect(0, [*tiled, "-o", "tiled.exr"])
+    expect(3, [*tiled, "-D", "materials.grid along.texture.scale=[400, 400]", "-o", "tiled.exr"],
+           "texture coordinates", "--vertices full")
     expect(2, [*QUICK, "-i", "bdpt", "--vertices", "small"], "--vertices", "full, compact")
 
 

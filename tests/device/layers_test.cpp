@@ -74,7 +74,7 @@ struct LayerRun {
     launch.width = launch.height = picture_side;
     launch.tile_x = launch.tile_y = 1;
     launch.tile_width = launch.tile_height = side;
-    launch.splat_scale = scale;
+    launch.splat_scale = launch.layer_scale = scale;
     launch.layer_set = all_layers();
     kernel.set_buffer(0, words), kernel.set_buffer(1, diag), kernel.set_buffer(2, input);
     kernel.set_bytes(3, &n, sizeof n), kernel.set_bytes(4, &launch, sizeof launch);
@@ -155,14 +155,15 @@ TEST(LayersTest, WhatCannotBeAddedIsCounted) {
     EXPECT_EQ(bad.diag[DIAG_layer_dropped], 9u);
     for (uint layer = 0; layer < layer_of_vertices(set); ++layer)
       EXPECT_EQ(bad.sum(1, 1, layer), 0u);
-    const Result large = LayerRun{int64, 64, {}}({{1e30f, 1, 1, 1, 1, 1e-20f, 0, 1}});
+    const Result large = LayerRun{int64, 64, {}}({{1e30f, 1, 1, 1, 1, 1e-5f, 0, 1}});
     EXPECT_EQ(large.diag[DIAG_layer_saturated], 3u) << "in red, weighted or not";
     EXPECT_EQ(large.sum(1, 1, layer_of_unweighted(set, 0, 1)), std::uint64_t(SPLAT_FIXED_MAX));
     EXPECT_EQ(large.sum(1, 1, layer_of_unweighted(set, 0, 1), 1), std::uint64_t(scale));
     // A sum that is almost full.
     std::vector<uint> full(Layers(set, scale, side * side).words.size(), 0xffffffffu);
     const Result over = LayerRun{int64, 64, full}({{1, 1, 1, 1, 1, 1, 0, 4}});
-    EXPECT_EQ(over.diag[DIAG_layer_saturated], 6u) << "two layers of three channels";
+    EXPECT_EQ(over.diag[DIAG_layer_saturated], 7u)
+        << "two layers of three channels, and the number of vertices";
   }
 }
 

@@ -15,7 +15,8 @@ PELLUCID, DEVICE_TESTS = map(os.path.abspath, sys.argv[1:3])
 EVERYTHING = str(pathlib.Path(__file__).parents[1] / "render/scenes/everything.json")
 # Method and scene: together they hold every pass and most lobes and lights.
 RUNS = [("path", "gallery"), ("nee", "four-balls-sun"), ("reference", "four-balls-background"),
-        ("naive", "cornell-box"), ("light", "cornell-box"), ("bdpt", "four-balls-background")]
+        ("naive", "cornell-box"), ("light", "cornell-box"), ("bdpt", "four-balls-background"),
+        ("bdpt", "textures", "--vertices", "compact", "--aov", "length,tech,light-vertices")]
 failures = []
 
 
@@ -29,10 +30,10 @@ def check(what, command):
 
 
 with tempfile.TemporaryDirectory() as folder:
-    for method, scene in RUNS:
+    for method, scene, *options in RUNS:
         check(f"{method} {scene}",
               [PELLUCID, "render", scene, "-i", method, "--spp", "1", "--size", "8x8", "--max-depth", "5",
-               "--device", "Oclgrind", "--strict", "-o", f"{folder}/{scene}.exr"])
+               "--device", "Oclgrind", "--strict", "-o", f"{folder}/{scene}.exr", *options])
     # Code for effects that the scene lacks must not run astray; a scene without light has no light to pick.
     dark = pathlib.Path(folder, "dark.json")
     dark.write_text(json.dumps({

@@ -137,12 +137,14 @@ TEST(SplatTest, WhatCannotBeAddedIsCounted) {
 // 2^8 of the largest splats leave 64 bits: with 64-bit atomics, in the high word, and by a carry.
 TEST(SplatTest, SumsThatOverflowAreCounted) {
   const float largest = SPLAT_FIXED_MAX / splat_scale, step = 1.0f / splat_scale;
-  const std::vector<F4> fits(255, F4{largest, largest, 0, 5});
+  const std::vector<F4> fits(3, F4{largest, largest, 0, 5});
   std::vector<F4> too_many = fits;
   too_many.push_back(F4{largest, 0, 0, 5});
-  // 255 2^56 + (2^56 - 2^32) + 2 (2^32 - 2^8): the last comes as a carry from the low word.
+  // 3 2^62 + (2^62 - 2^38) + (2^38 - 2^32) + 2 (2^32 - 2^8): the last comes as a carry from the low
+  // word.
   std::vector<F4> by_carry = fits;
   by_carry.push_back(F4{largest - std::ldexp(largest, -24), 0, 0, 5});
+  by_carry.push_back(F4{std::ldexp(step, 38) - std::ldexp(step, 32), 0, 0, 5});
   by_carry.push_back(F4{std::ldexp(step, 32) - std::ldexp(step, 8), 0, 0, 5});
   by_carry.push_back(by_carry.back());
   for (bool int64 : {true, false}) {

@@ -1,6 +1,7 @@
 // Layers of real renders: they add up to the picture, agree between methods bit for bit, and do not
 // depend on how passes and pixels were split.
 #include "render/layers.h"
+#include "render/launch.h"
 
 #include <gtest/gtest.h>
 
@@ -73,6 +74,7 @@ bool same_layer(const Film& a, uint of_a, const Film& b, uint of_b) {
 }
 
 TEST(LayersOf, add_up_to_the_picture) {
+  const double splat_scale = make_launch(everything(), side, side, {0, 0, side, side}).splat_scale;
   for (const char* name : methods) {
     const Film film = render(method_of(name), options_for(all_passes));
     const uint set = film.layers.set;
@@ -95,8 +97,9 @@ TEST(LayersOf, add_up_to_the_picture) {
         const double picture = film.sums(i).sum[c], layers = double(lengths) / film.layers.scale;
         // A path's contributions are rounded to steps here, and to floats where its radiance adds
         // up: some roundings per path, whose signs are random. Two half steps and four roundings
-        // of a float per path are more than they add up to.
-        const double bound = 37 / film.layers.scale + 4.0 * double(UNIT_ROUNDOFF) * picture;
+        // of a float per path are more than they add up to. Splats have steps of their own.
+        const double steps = 1 / double(film.layers.scale) + 1 / splat_scale;
+        const double bound = 37 * steps + 4.0 * double(UNIT_ROUNDOFF) * picture;
         ASSERT_NEAR(layers, picture, bound) << name << " pixel " << i;
         most = std::max(most, std::abs(layers - picture) / bound);
       }

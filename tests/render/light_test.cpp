@@ -17,6 +17,38 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 const char* const from_light[] = {"light", "bdpt"};
 
+// What the camera pass of `light` leaves to walks from the lights is nothing where all that is seen
+// is emitters by way of mirrors, glass and coats: the very bits of `naive`, which it draws alike.
+TEST(Light, camera_sees_emitters_through_delta_surfaces) {
+  for (const char* material : {"mirror", "glass", "coat"}) {
+    Scene scene = scene_named("ball");
+    scene.materials.clear();
+    scene.shapes.clear();
+    scene.lights.clear();
+    Material m;
+    m.reflectance = Rgb(0.75);
+    m.kind = material == std::string("mirror")  ? MaterialKind::mirror
+             : material == std::string("glass") ? MaterialKind::dielectric
+                                                : MaterialKind::plastic;
+    if (m.kind == MaterialKind::plastic) m.reflectance = Rgb(0.0);  // a coat over black
+    scene.materials.push_back(m);
+    Shape ball;
+    ball.geometry = Sphere{{0, 0, 0}, 1.0};
+    scene.shapes.push_back(ball);
+    scene.lights.push_back(ConstantEnvironment{Rgb(0.5, 1, 2)});
+    scene.camera.origin = {0, 0, 4};
+    Sampling run;
+    run.spp = 64;
+    run.max_depth = 8;
+    Renderer light(scene, {"light", 16, 16}), naive(scene, {"naive", 16, 16});
+    const Picture seen = light.render(run), expected = naive.render(run);
+    EXPECT_GT(expected.image(0).mean, 0.01) << material;
+    for (std::size_t i = 0; i < expected.pixels.size(); ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        ASSERT_EQ(seen.pixels[i][c].mean, expected.pixels[i][c].mean) << material << " " << i;
+  }
+}
+
 /// Mean of a block of pixels over runs.
 struct Block {
   int x0, y0, size;
