@@ -91,7 +91,8 @@ std::map<std::string, std::size_t> vertex_buffers(const Integrator& integrator,
   bytes[side + "_vertices"] = options.compact_vertices ? sizeof(CompactVertex) : sizeof(PathVertex);
   bytes[side + "_order"] = sizeof(uint);
   if (side != "light" || !integrator.uses(Bundle::grid)) return bytes;
-  bytes["photons"] = sizeof(F4);
+  bytes["photon_positions"] = sizeof(F4);
+  bytes["photons"] = sizeof(Photon);
   bytes["grid_pairs"] = bytes["grid_sorted"] = 2 * sizeof(uint);
   return bytes;
 }

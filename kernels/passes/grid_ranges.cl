@@ -1,6 +1,6 @@
-// grid_ranges: where each cell's photons begin and end, and their positions in that order.
-// Reads: light_vertices, light_order, grid_pairs (sorted, after an even number of digits). Writes:
-// grid_cells, photons. Domain: photons. Atomics: none. Next: merge.
+// grid_ranges: where each cell's photons begin and end, and what merging needs of them in that
+// order. Reads: light_vertices, light_order, grid_pairs (sorted, after an even number of digits).
+// Writes: grid_cells, photon_positions, photons. Domain: photons. Atomics: none. Next: merge.
 // Flags: INTG_COMPACT.
 #include "passes/bundles.h"
 #include "transport/stored_vertex.h"
@@ -16,5 +16,6 @@ __kernel void grid_ranges(LIGHT_VERTEX_PARAMS GRID_PARAMS const Launch launch) {
   uint slot = light_order[pairs[2 * (size_t)i + 1u]];
   __global const StoredVertex* vertices = (__global const StoredVertex*)light_vertices;
   real3 p = stored_position(&vertices[slot]);
-  photons[i] = (F4)(p.x, p.y, p.z, as_float(slot));
+  photon_positions[i] = (F4)(p.x, p.y, p.z, 0.0f);
+  photons[i] = photon_of(&vertices[slot]);
 }

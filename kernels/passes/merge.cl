@@ -1,38 +1,37 @@
 // merge: gathers the light vertices around every vertex of a pixel's eye path.
-// Reads: scene, eye vertices with their order, light_vertices, photons, grid_cells. Writes: samples
-// [pixels of the tile] (adds), diag. Domain: pixels of the slice. Atomics: diag only. Next:
+// Reads: scene, eye vertices with their order, photon_positions, photons, grid_cells. Writes:
+// samples [pixels of the tile] (adds), diag. Domain: pixels of the slice. Atomics: diag only. Next:
 // film_add. Flags: INTG_CONNECT, INTG_COMPACT.
 #include "passes/bundles.h"
 #include "transport/merge.h"
 
 /// Sum over the photons of one cell.
 INLINE real3 merge_cell(PRIVATE const SceneData* scene, Launch launch,
-                        __global const StoredVertex* light_vertices, __global const F4* photons,
-                        __global const uint* grid_cells, GridCell cell, PRIVATE const EndVertex* eye
+                        __global const F4* photon_positions, __global const Photon* photons,
+                        __global const uint* grid_cells, GridCell cell,
 #if INTG_LAYERS
-                        ,
-                        LayerSink sink
+                        LayerSink sink,
 #endif
-) {
+                        PRIVATE const EndVertex* eye) {
   real3 sum = (float3)(0.0f);
   uint bucket = grid_bucket(launch, cell);
   real3 p = eye->v.surface.p;
   real radius2 = launch.radius * launch.radius;
   for (uint i = grid_cells[2 * bucket]; i < grid_cells[2 * bucket + 1u]; ++i) {
-    F4 photon = photons[i];
-    real3 at = load3(photon), d = at - p;
+    real3 at = load3(photon_positions[i]), d = at - p;
     // Another cell may have the same bucket: a photon is met in its own alone.
     if (dot3(d, d) > radius2 || !grid_same(grid_cell(scene, launch, at), cell)) continue;
-    EndVertex light = vertex_unpack(scene, light_vertices[as_uint(photon.w)], 1);
-    if (eye->depth + light.depth > launch.max_depth) continue;
+    Photon photon = photons[i];
+    uint depth = eye->depth + photon.depth;
+    if (depth > launch.max_depth) continue;
 #if !INTG_CONNECT
-    if (light.depth == 1u) continue;  // light samples have brought it
+    if (photon.depth == 1u) continue;  // light samples have brought it
 #endif
     Merge merge;
-    if (!merge_vertices(scene, launch, eye, &light, &merge)) continue;
+    if (!merge_photon(scene, launch, eye, photon, &merge)) continue;
     sum += merge.value * merge.weight;
 #if INTG_LAYERS
-    layer_merge(sink, merge.value, merge.weight, eye->depth, eye->depth + light.depth);
+    layer_merge(sink, merge.value, merge.weight, eye->depth, depth);
 #endif
   }
   return sum;
@@ -56,13 +55,11 @@ __kernel void merge(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARA
       for (int y = range.low.y; y <= range.high.y; ++y)
         for (int x = range.low.x; x <= range.high.x; ++x) {
           GridCell cell = {x, y, z};
-          sum += merge_cell(&scene_data, launch, (__global const StoredVertex*)light_vertices,
-                            photons, grid_cells, cell, &eye
+          sum += merge_cell(&scene_data, launch, photon_positions, photons, grid_cells, cell,
 #if INTG_LAYERS
-                            ,
-                            layer_sink(layers, diag, launch, pixel)
+                            layer_sink(layers, diag, launch, pixel),
 #endif
-          );
+                            &eye);
         }
   }
   samples[pixel] += (float4)(sum, 0.0f);

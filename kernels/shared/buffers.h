@@ -50,7 +50,8 @@
   X(uint, eye_order, "[eye capacity]")
 // Light vertices by the cell of space that they lie in. Pairs: (cell, place in light_order).
 #define GRID_BUFFERS(X)                                                                  \
-  X(F4, photons, "positions cell by cell; w: slot, as bits [light capacity]")            \
+  X(F4, photon_positions, "cell by cell [light capacity]")                               \
+  X(Photon, photons, "in the same order [light capacity]")                               \
   X(uint, grid_pairs, "[light capacity][2]")                                             \
   X(uint, grid_sorted, "the same, sorted by a digit [light capacity][2]")                \
   X(uint, grid_digits, "how often each block has each digit [SORT_DIGITS][SORT_BLOCKS]") \

@@ -234,6 +234,15 @@ typedef struct CompactVertex {
 } CompactVertex;
 LAYOUT_CHECK(CompactVertex, 48);
 
+/// A light vertex as merging needs it, beside its position. Written by grid_ranges.
+typedef struct Photon {
+  F4 wi_dVCM;   // unit, to where it came from
+  F4 beta_dVM;  // power [W]
+  float ng_x, ng_y, ng_z;
+  uint depth;  // segments from the light
+} Photon;
+LAYOUT_CHECK(Photon, 48);
+
 #define FILM_SUM_WORDS 4
 #define FILM_SQUARE_WORDS 6
 /// Accumulators of one pixel: wide integers (shared/wide.h) per channel, so that sums neither stall

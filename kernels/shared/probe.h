@@ -5,7 +5,7 @@
 // clang-format off
 #define LAYOUT_STRUCTS(X) \
   X(Triangle) X(Quadric) X(Shape) X(Material) X(Texture) X(Light) X(SceneInfo) X(Camera) X(Launch) X(FilmPixel) \
-  X(AovPixel) X(PathVertex) X(CompactVertex)
+  X(AovPixel) X(PathVertex) X(CompactVertex) X(Photon)
 
 #define LAYOUT_FIELDS(X)                                                                  \
   X(Triangle, shape)                                                                      \

@@ -13,26 +13,27 @@ typedef struct Merge {
   real weight;
 } Merge;
 
-/// The radiance that `light` brings to `eye` if they were one point, over `launch.merge_scale`.
-/// Light vertices count power through the geometric surface, f |wi.ns| / |wi.ng| makes radiance of
-/// it. 0 where nothing is scattered.
-INLINE int merge_vertices(PRIVATE const SceneData* scene, Launch launch,
-                          PRIVATE const EndVertex* eye, PRIVATE const EndVertex* light,
-                          PRIVATE Merge* merge) {
-  real3 ng = eye->v.surface.ng;
-  if (dot3(ng, light->v.surface.ng) < (real)MERGE_COS_MIN) return 0;
-  real3 wi = to_world(light->v.frame, light->v.context.wo);
+/// The radiance that the photon brings to `eye` if they were one point, over `launch.merge_scale`.
+/// Photons count power through the geometric surface; f |wi.ns| / |wi.ng| makes radiance of it. 0
+/// where nothing is scattered.
+INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE const EndVertex* eye,
+                        Photon photon, PRIVATE Merge* merge) {
+  real3 ng = eye->v.surface.ng, wi = load3(photon.wi_dVCM);
+  if (dot3(ng, REAL3(photon.ng_x, photon.ng_y, photon.ng_z)) < (real)MERGE_COS_MIN) return 0;
   real cos_wi;
   BsdfEval e = vertex_eval(scene, &eye->v, wi, &cos_wi);
   if (is_black(e.f)) return 0;
   real cos_g = r_abs(dot3(ng, wi));
   if (!(cos_g > REAL(0.0))) return 0;
-  merge->value = eye->beta * e.f * light->beta * (cos_wi / cos_g * (real)launch.merge_scale);
+  real scale = cos_wi / cos_g * (real)launch.merge_scale;
+  merge->value = eye->beta * e.f * load3(photon.beta_dVM) * scale;
   merge->weight = REAL(1.0);
 #if INTG_CONNECT && INTG_MERGE
   real survive = (real)eye->v.material.survive;
   real reverse = vertex_pdf_reverse(scene, &eye->v, wi) * survive;
-  real on_light = partials_merge(launch, light->partials, e.pdf_w * survive);
+  Partials light = partials_start((real)photon.wi_dVCM.w, REAL(0.0));
+  light.dVM = (real)photon.beta_dVM.w;
+  real on_light = partials_merge(launch, light, e.pdf_w * survive);
   real on_eye = partials_merge(launch, eye->partials, reverse);
   merge->weight = partial_weight(launch.mis, on_light, on_eye);
 #endif

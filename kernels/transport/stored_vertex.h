@@ -33,6 +33,15 @@ typedef struct EndVertex {
   uint depth;
 } EndVertex;
 
+INLINE F4 to_f4(real3 v, real w) {
+  F4 f;
+  f.x = (float)v.x;
+  f.y = (float)v.y;
+  f.z = (float)v.z;
+  f.w = (float)w;
+  return f;
+}
+
 #if INTG_COMPACT
 INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q, uint depth) {
   StoredVertex s;
@@ -89,15 +98,6 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
   return e;
 }
 #else
-INLINE F4 to_f4(real3 v, real w) {
-  F4 f;
-  f.x = (float)v.x;
-  f.y = (float)v.y;
-  f.z = (float)v.z;
-  f.w = (float)w;
-  return f;
-}
-
 INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q, uint depth) {
   StoredVertex s;
   real tex_u = REAL(0.0), tex_v = REAL(0.0);
@@ -144,6 +144,29 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
   return e;
 }
 #endif
+
+/// What merging needs of a light vertex in memory, beside its position.
+INLINE Photon photon_of(GLOBAL const StoredVertex* s) {
+  Photon photon;
+#if INTG_MERGE
+#if INTG_COMPACT
+  photon.wi_dVCM = to_f4(octahedral_unpack(s->wo), (real)float_from_bits(s->dVCM & 0xffff0000u));
+  photon.beta_dVM = to_f4(rgbe_unpack(s->beta), (real)float_from_bits(s->dVCM << 16));
+  real3 ng = octahedral_unpack(s->ng);
+  photon.depth = s->dVC & 0xffffu;
+#else
+  photon.wi_dVCM = s->wo_dVCM;
+  photon.beta_dVM = s->beta_dVC;
+  photon.beta_dVM.w = s->dVM;
+  real3 ng = load3(s->ng_u);
+  photon.depth = s->flags_depth >> 8;
+#endif
+  photon.ng_x = (float)ng.x;
+  photon.ng_y = (float)ng.y;
+  photon.ng_z = (float)ng.z;
+#endif
+  return photon;
+}
 
 /// Where a vertex in memory is.
 INLINE real3 stored_position(GLOBAL const StoredVertex* s) {
