@@ -60,12 +60,6 @@ INLINE uint float24_pack(float x) {
   return bits >= 0x7f7fff80u ? 0x7f7fff00u : (bits + 0x80u) & 0xffffff00u;
 }
 
-/// The same to its upper 16 bits.
-INLINE uint float16_pack(float x) {
-  uint bits = float_bits(x);
-  return bits >= 0x7f7f8000u ? 0x7f7f0000u : (bits + 0x8000u) & 0xffff0000u;
-}
-
 /// Biased exponent of the least power of two that is not below x >= 0.
 INLINE uint float_exponent_above(float x) {
   uint bits = float_bits(x);

@@ -212,8 +212,8 @@ typedef struct PathVertex {
   F4 wo_dVCM;   // unit, to the vertex before
   F4 beta_dVC;  // throughput up to here; of a light path: power [W]
   uint material;
-  uint flags_depth;  // low 8 bits: SHAPE_*; then segments from the sub-path's start
-  float dVM;
+  uint flags;   // SHAPE_*
+  uint depth;   // segments from the sub-path's start
   uint before;  // slot of the stored vertex before, or NONE
 } PathVertex;
 LAYOUT_CHECK(PathVertex, 96);
@@ -227,9 +227,8 @@ typedef struct CompactVertex {
   uint ng, ns, wo;  // octahedral, 2 x 16 bits
   uint before;      // slot of the stored vertex before, or NONE
   uint beta;        // three mantissas of 8 bits and, on top, an exponent of 8
-  uint dVCM;        // upper 24 bits of the float, rounded; then the low 8 bits of the depth. With
-                    // merging: upper 16 bits, then the upper 16 of dVM
-  uint dVC;         // the same; then its high 8 bits. With merging: upper 16 bits, then the depth
+  uint dVCM;        // upper 24 bits of the float, rounded; then the low 8 bits of the depth
+  uint dVC;         // the same; then its high 8 bits
   uint uv;          // texture coordinates as halfs
 } CompactVertex;
 LAYOUT_CHECK(CompactVertex, 48);

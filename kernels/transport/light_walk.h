@@ -33,16 +33,13 @@ INLINE LightWalk light_walk_start(PRIVATE const SceneData* scene, Rng rng) {
 
 #if INTG_CONNECT
 /// The walk has come to the vertex, the last of `depth` segments.
-INLINE void light_walk_arrive(PRIVATE const SceneData* scene, Launch launch, PRIVATE LightWalk* w,
+INLINE void light_walk_arrive(PRIVATE const SceneData* scene, PRIVATE LightWalk* w,
                               PRIVATE const Vertex* v) {
   if (w->depth == 1u) {
     // Only here is NEE's density known: it may depend on where it looks from.
     real nee = emit_pdf_nee(scene, &w->start, v->surface.p);
-    real dVC = partials_dVC(w->walk.partials) / v->cos_wo;
-    w->walk.partials = partials_start(nee / (w->start.pdf * v->cos_wo), dVC);
-#if INTG_MERGE
-    w->walk.partials.dVM = dVC * (real)launch.mis_vc;
-#endif
+    w->walk.partials = partials_start(nee / (w->start.pdf * v->cos_wo),
+                                      partials_dVC(w->walk.partials) / v->cos_wo);
   } else {
     walk_arrive(v, &w->walk);
   }
@@ -50,7 +47,7 @@ INLINE void light_walk_arrive(PRIVATE const SceneData* scene, Launch launch, PRI
 #endif
 
 /// Traces the next segment. 0: it ends on nothing that scatters.
-INLINE int light_walk_next(PRIVATE const SceneData* scene, Launch launch, PRIVATE LightWalk* w,
+INLINE int light_walk_next(PRIVATE const SceneData* scene, PRIVATE LightWalk* w,
                            PRIVATE Vertex* v) {
   if (is_black(w->walk.beta)) return 0;
   ++w->walk.rays;
@@ -60,7 +57,7 @@ INLINE int light_walk_next(PRIVATE const SceneData* scene, Launch launch, PRIVAT
   *v = vertex_at(scene, surface_at(scene, w->walk.ray, hit), -w->walk.ray.d, 1);
   if (v->black) return 0;
 #if INTG_CONNECT
-  light_walk_arrive(scene, launch, w, v);
+  light_walk_arrive(scene, w, v);
 #endif
   return 1;
 }

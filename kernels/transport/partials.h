@@ -11,13 +11,12 @@
 
 /// What a sub-path knows of the strategies that would have drawn its vertices from the other end.
 /// dVC is a sum over all its vertices, so it may leave the range of float on the way and come back.
+/// Merges need no third quantity: where connections are weighed against them, too, [Georgiev12]'s
+/// dVM is dVC / Launch.mis_vm from the start on: their recursions turn into each other.
 typedef struct Partials {
   real dVCM;
   real dVC_scaled;  // dVC over 2^(64 scale)
   uint scale;
-#if INTG_MERGE
-  real dVM;
-#endif
 } Partials;
 
 #define PARTIALS_SCALE REAL(18446744073709551616.0)         /* 2^64 */
@@ -28,9 +27,6 @@ INLINE Partials partials_start(real dVCM, real dVC) {
   q.dVCM = dVCM;
   q.dVC_scaled = dVC;
   q.scale = 0u;
-#if INTG_MERGE
-  q.dVM = REAL(0.0);
-#endif
   return q;
 }
 
@@ -71,34 +67,31 @@ INLINE real partial_weight(uint heuristic, real light, real eye) {
   return REAL(1.0) / (REAL(1.0) + light + eye);
 }
 
+/// Of the strategies on one side, those that end at its last vertex: a connection to it, a merge.
+INLINE real partials_here(Launch launch, Partials q) {
+#if INTG_MERGE
+  return partial_sum(launch.mis, q.dVCM, (real)launch.mis_vm);
+#else
+  return q.dVCM;
+#endif
+}
+
 /// The sub-path arrives over `distance2` at a surface under |cos| to its geometric normal.
 INLINE void partials_arrive(PRIVATE Partials* q, real distance2, real cos_g) {
   real inv = r_min(REAL(1.0) / cos_g, REAL_MAX);
   q->dVCM = r_min(q->dVCM * distance2 * inv, REAL_MAX);
   q->dVC_scaled = r_min(q->dVC_scaled * inv, REAL_MAX);
-#if INTG_MERGE
-  q->dVM = r_min(q->dVM * inv, REAL_MAX);
-#endif
 }
 
 /// It goes on by a lobe with densities `forward` and `reverse` [1/sr], survival included, leaving
 /// under |cos| to the geometric normal.
 INLINE void partials_scatter(Launch launch, PRIVATE Partials* q, real forward, real reverse,
                              real cos_g) {
-  uint heuristic = launch.mis;
   real inv = r_min(REAL(1.0) / forward, REAL_MAX);
-#if INTG_MERGE
-  real merged = partial_sum(heuristic, q->dVM * reverse, q->dVCM * (real)launch.mis_vc);
-  merged = partial_sum(heuristic, merged, REAL(1.0));
-  q->dVM = r_min(merged * cos_g * inv, REAL_MAX);
-#endif
-  real vcm = q->dVCM;  // over 2^(64 scale)
-  if (q->scale > 0u) vcm = q->scale == 1u ? vcm * PARTIALS_SCALE_INV : REAL(0.0);
-  real before = partial_sum(heuristic, q->dVC_scaled * reverse, vcm);
-#if INTG_MERGE
-  if (q->scale == 0u) before = partial_sum(heuristic, before, (real)launch.mis_vm);
-#endif
-  q->dVC_scaled = before * cos_g * inv;
+  real before = q->dVC_scaled * reverse, here = partials_here(launch, *q);
+  if (before == REAL(0.0)) q->scale = 0u;  // nothing is left of what has made it large
+  if (q->scale > 0u) here = q->scale == 1u ? here * PARTIALS_SCALE_INV : REAL(0.0);
+  q->dVC_scaled = partial_sum(launch.mis, before, here) * cos_g * inv;
   q->dVCM = r_min(inv, REAL_MAX);
   partials_rescale(q);
 }
@@ -108,27 +101,21 @@ INLINE void partials_scatter(Launch launch, PRIVATE Partials* q, real forward, r
 INLINE void partials_scatter_delta(PRIVATE Partials* q, real reverse, real cos_g) {
   q->dVCM = REAL(0.0);
   q->dVC_scaled = q->dVC_scaled * cos_g * reverse;
-#if INTG_MERGE
-  q->dVM = r_min(q->dVM * cos_g * reverse, REAL_MAX);
-#endif
   partials_rescale(q);
 }
 
 /// What the strategies on one side weigh at its end vertex: `pdf_a` [1/m^2] draws this vertex from
 /// the other side, `reverse` [1/sr] from here the one before.
 INLINE real partials_end(Launch launch, Partials q, real pdf_a, real reverse) {
-  real sum = partial_sum(launch.mis, partials_dVC(q) * reverse, q.dVCM);
-#if INTG_MERGE
-  sum = partial_sum(launch.mis, sum, (real)launch.mis_vm);
-#endif
-  return pdf_a * sum;
+  real before = partials_dVC(q) * reverse;
+  return pdf_a * partial_sum(launch.mis, before, partials_here(launch, q));
 }
 
 #if INTG_MERGE
-/// What the strategies on one side weigh where its end vertex is merged; `reverse` [1/sr] draws
-/// from here the one before, by the other side's walk.
+/// What they weigh where both sides merge in that vertex.
 INLINE real partials_merge(Launch launch, Partials q, real reverse) {
-  return partial_sum(launch.mis, q.dVCM * (real)launch.mis_vc, q.dVM * reverse);
+  real sum = partial_sum(launch.mis, partials_dVC(q) * reverse, q.dVCM);
+  return sum * (real)launch.mis_vc;
 }
 #endif
 

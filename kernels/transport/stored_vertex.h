@@ -54,13 +54,8 @@ INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q,
   s.ns = octahedral_pack(v->surface.ns);
   s.wo = octahedral_pack(to_world(v->frame, v->context.wo));
   s.beta = rgbe_pack(beta);
-#if INTG_MERGE
-  s.dVCM = float16_pack((float)q.dVCM) | (float16_pack((float)q.dVM) >> 16);
-  s.dVC = float16_pack((float)partials_dVC(q)) | depth;
-#else
   s.dVCM = float24_pack((float)q.dVCM) | (depth & 0xffu);
   s.dVC = float24_pack((float)partials_dVC(q)) | (depth >> 8);
-#endif
 #if FEAT_TEXTURE
   s.uv = half_pack((float)v->surface.u) | (half_pack((float)v->surface.v) << 16);
 #else
@@ -85,16 +80,9 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
 #endif
   e.v = vertex_at(scene, surface, octahedral_unpack(s.wo), importance);
   e.beta = rgbe_unpack(s.beta);
-#if INTG_MERGE
-  e.partials = partials_start((real)float_from_bits(s.dVCM & 0xffff0000u),
-                              (real)float_from_bits(s.dVC & 0xffff0000u));
-  e.partials.dVM = (real)float_from_bits(s.dVCM << 16);
-  e.depth = s.dVC & 0xffffu;
-#else
   e.partials = partials_start((real)float_from_bits(s.dVCM & 0xffffff00u),
                               (real)float_from_bits(s.dVC & 0xffffff00u));
   e.depth = (s.dVCM & 0xffu) | ((s.dVC & 0xffu) << 8);
-#endif
   return e;
 }
 #else
@@ -111,12 +99,8 @@ INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q,
   s.wo_dVCM = to_f4(to_world(v->frame, v->context.wo), q.dVCM);
   s.beta_dVC = to_f4(beta, partials_dVC(q));
   s.material = v->surface.material;
-  s.flags_depth = v->surface.flags | (depth << 8);
-#if INTG_MERGE
-  s.dVM = (float)q.dVM;
-#else
-  s.dVM = 0.0f;
-#endif
+  s.flags = v->surface.flags;
+  s.depth = depth;
   return s;
 }
 
@@ -128,7 +112,7 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
   surface.ng = load3(s.ng_u);
   surface.ns = load3(s.ns_v);
   surface.material = s.material;
-  surface.flags = s.flags_depth & 0xffu;
+  surface.flags = s.flags;
   surface.light = NONE;
 #if FEAT_TEXTURE
   surface.u = (real)s.ng_u.w;
@@ -137,10 +121,7 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
   e.v = vertex_at(scene, surface, load3(s.wo_dVCM), importance);
   e.beta = load3(s.beta_dVC);
   e.partials = partials_start((real)s.wo_dVCM.w, (real)s.beta_dVC.w);
-#if INTG_MERGE
-  e.partials.dVM = (real)s.dVM;
-#endif
-  e.depth = s.flags_depth >> 8;
+  e.depth = s.depth;
   return e;
 }
 #endif

@@ -13,14 +13,19 @@ class PathDensities {
   PathDensities(const TwinScene& twin, const Launch& launch, const FullPath& path)
       : twin_(twin), launch_(launch), path_(path), k_(path.nodes.size()) {}
 
-  /// Density of strategy s = 0 .. k + 1 (k surfaces between light and camera), all in one measure:
-  /// area at surfaces, solid angle at an environment, none at delta lights.
+  /// Density of strategy s = 0 .. k + 1 (k surfaces between light and camera), then of merging at
+  /// each of them (merge_at), all in one measure: area at surfaces, solid angle at an environment,
+  /// none at delta lights.
   std::vector<double> all() const {
-    std::vector<double> p(k_ + 2, 0.0);
+    std::vector<double> p(k_ + 2 + (merges ? k_ : 0), 0.0);
     for (std::size_t s = 0; s <= k_ + 1; ++s)
       if (possible(s)) p[s] = density(s);
+    for (std::size_t i = 1; merges && i <= k_; ++i)
+      if (spread(i)) p[merge_at(i)] = merge_density(i);
     return p;
   }
+  /// Index of the strategy that merges at point i = 1 .. k.
+  std::size_t merge_at(std::size_t i) const { return k_ + 1 + i; }
   /// Delta lobe at node i: density of drawing the point on the light's side over that of drawing
   /// the one on the camera's side, each [1/sr]: the inverse ratio of their solid angles.
   double delta_ratio(std::size_t i) const;
@@ -57,6 +62,14 @@ class PathDensities {
     double p = s == k_ + 1 ? double(launch_.light_paths) : 1.0;
     for (std::size_t i = 0; i < s; ++i) p *= s == 1 ? nee() : from_light(i);
     for (std::size_t i = s; i <= k_; ++i) p *= from_eye(i);
+    return p;
+  }
+  /// Both walks draw point i, and one of all light paths comes within the radius: its density is
+  /// that of a connection times the chance of that [Georgiev12 eq. 11].
+  double merge_density(std::size_t i) const {
+    double p = double(launch_.mis_vm);
+    for (std::size_t j = 0; j <= i; ++j) p *= from_light(j);
+    for (std::size_t j = i; j <= k_; ++j) p *= from_eye(j);
     return p;
   }
   double from_light(std::size_t i) const;

@@ -29,9 +29,10 @@ class Replay {
     walk_from_light();
     walk_from_eye();
   }
-  /// Weight of strategy s, 0 where it cannot find the path.
+  /// Weight of strategy s (PathDensities::all), 0 where it cannot find the path.
   real weight(std::size_t s) const {
     if (s == 0) return by_chance();
+    if (s >= k_ + 2) return by_merge(s - k_ - 2);
     if (path_.nodes[s == 1 ? 0 : s - 2].delta) return real(0);
     if (s == 1) return by_light_sample();
     if (s == k_ + 1) return by_splat();
@@ -117,6 +118,16 @@ class Replay {
     Connection link;
     return connect_vertices(&twin_.data, launch_, &eye_[s - 1], &light_[s - 2], &link) ? link.weight
                                                                                        : real(0);
+  }
+
+  /// At node i.
+  real by_merge(std::size_t i) const {
+#ifdef TWIN_MERGE
+    Merge merge;
+    if (!path_.nodes[i].delta && merge_vertices(&twin_.data, launch_, &eye_[i], &light_[i], &merge))
+      return merge.weight;
+#endif
+    return real(0);
   }
 
   const TwinScene& twin_;

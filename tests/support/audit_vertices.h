@@ -1,5 +1,5 @@
-// Vertices of real walks, stored and read back: what storage does to connections. The vertex's
-// format is that of TWIN_COMPACT. Needs TWIN_CONNECT.
+// Vertices of real walks, stored and read back: what storage does to connections and merges. The
+// vertex's format is that of TWIN_COMPACT. Needs TWIN_CONNECT.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +12,43 @@ namespace TWIN_NAMESPACE {
 
 struct StorageErrors {
   int vertices = 0, turned_black = 0;
-  int pairs = 0, lost = 0;             ///< pairs that connected before; those that do no more
-  double value_sum = 0, back_sum = 0;  ///< of all connections' values, before and after
+  int pairs = 0, lost = 0;             ///< pairs that brought something; those that do no more
+  double value_sum = 0, back_sum = 0;  ///< of all their values, before and after
   double worst_weight = 0;
-  std::vector<double> value_errors;  ///< relative, of each connection's value
+  std::vector<double> value_errors;  ///< relative, of each
   double quantile(double q) {
     std::sort(value_errors.begin(), value_errors.end());
     return value_errors[std::size_t(q * double(value_errors.size() - 1))];
   }
+  /// What a pair brought before, and after if it still does.
+  template <typename Pair>
+  void compare(const Pair& before, const Pair& after, bool found) {
+    ++pairs;
+    value_sum += double(before.value.x);
+    if (!found) {
+      ++lost;
+      return;
+    }
+    back_sum += double(after.value.x);
+    value_errors.push_back(std::abs(double(after.value.x) / double(before.value.x) - 1));
+    worst_weight = std::max(worst_weight, std::abs(double(before.weight) - double(after.weight)));
+  }
 };
 
-/// Calls check(before, after) for the vertices of many walks, and connects both.
+/// The vertex as it comes back from memory.
+inline EndVertex stored(const TwinScene& twin, const EndVertex& end) {
+  const StoredVertex s = vertex_pack(&end.v, end.beta, end.partials, end.depth);
+  return vertex_unpack(&twin.data, s, end.v.context.importance);
+}
+
+/// The light vertex as if its walk had come to where the eye's vertex is.
+inline EndVertex moved(const TwinScene& twin, EndVertex light, const EndVertex& eye) {
+  const real3 wo = to_world(light.v.frame, light.v.context.wo);
+  light.v = vertex_at(&twin.data, eye.v.surface, wo, 1);
+  return light;
+}
+
+/// Calls check(before, after) for the vertices of many walks; connects both, and merges them.
 template <typename Check>
 StorageErrors store_and_connect(const TwinScene& twin, Launch launch, Check check) {
   StorageErrors errors;
@@ -34,8 +60,7 @@ StorageErrors store_and_connect(const TwinScene& twin, Launch launch, Check chec
     for (int importance : {0, 1})
       for (const EndVertex& end : finder.ends(importance)) {
         if (bsdf_is_delta(end.v.material)) continue;
-        const StoredVertex stored = vertex_pack(&end.v, end.beta, end.partials, end.depth);
-        const EndVertex back = vertex_unpack(&twin.data, stored, importance);
+        const EndVertex back = stored(twin, end);
         ++errors.vertices;
         errors.turned_black += back.v.black;
         check(end, back);
@@ -45,17 +70,16 @@ StorageErrors store_and_connect(const TwinScene& twin, Launch launch, Check chec
     for (std::size_t i = 0; i < before[0].size(); ++i)
       for (std::size_t j = 0; j < before[1].size(); ++j) {
         Connection a, b;
-        if (!connect_vertices(&twin.data, launch, &before[0][i], &before[1][j], &a)) continue;
-        ++errors.pairs;
-        errors.value_sum += double(a.value.x);
-        if (!connect_vertices(&twin.data, launch, &after[0][i], &after[1][j], &b)) {
-          ++errors.lost;
-          continue;
-        }
-        errors.back_sum += double(b.value.x);
-        errors.value_errors.push_back(std::abs(double(b.value.x) / double(a.value.x) - 1));
-        errors.worst_weight =
-            std::max(errors.worst_weight, std::abs(double(a.weight) - double(b.weight)));
+        const bool meets = connect_vertices(&twin.data, launch, &before[0][i], &before[1][j], &a);
+        if (meets)
+          errors.compare(a, b,
+                         connect_vertices(&twin.data, launch, &after[0][i], &after[1][j], &b));
+#ifdef TWIN_MERGE
+        Merge c, d;
+        const EndVertex light = moved(twin, before[1][j], before[0][i]), back = stored(twin, light);
+        if (merge_vertices(&twin.data, launch, &before[0][i], &light, &c))
+          errors.compare(c, d, merge_vertices(&twin.data, launch, &after[0][i], &back, &d));
+#endif
       }
   }
   return errors;
@@ -68,6 +92,7 @@ inline Launch storage_launch() {
   launch.seed = 7;
   launch.max_depth = 12;
   launch.mis = MIS_BALANCE;
+  if (merges) launch.mis_vm = launch.mis_vc = launch.merge_scale = 1;
   return launch;
 }
 

@@ -51,8 +51,12 @@ namespace TWIN_NAMESPACE {
 #include "transport/connect.h"
 #include "transport/light_walk.h"
 #include "transport/path.h"
+#if INTG_MERGE
+#include "transport/merge.h"
+#endif
 
 constexpr bool is_float = sizeof(real) == sizeof(float);
+constexpr bool merges = INTG_MERGE == 1;
 
 /// Kernel view of packed arrays, which must outlive it; counters go to `diag`.
 inline SceneData scene_data(const pellucid::PackedScene& packed, std::vector<uint>& diag) {

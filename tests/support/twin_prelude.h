@@ -38,6 +38,11 @@
 #define INTG_CONNECT 0
 #endif
 #define INTG_SPLAT INTG_CONNECT
+#ifdef TWIN_MERGE  // of `vcm`
+#define INTG_MERGE 1
+#else
+#define INTG_MERGE 0
+#endif
 #ifdef TWIN_COMPACT  // vertices stored in half the bytes
 #define INTG_COMPACT 1
 #else

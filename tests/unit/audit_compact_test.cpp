@@ -40,7 +40,7 @@ TEST(AuditCompact, IsOffByAHundredth) {
     const TwinScene twin(audit_room(open));
     StorageErrors e = store_and_connect(twin, storage_launch(), expect_close);
     std::printf(
-        "compact: %d vertices, %d black; %d connections, %d lost; error of values: median "
+        "compact: %d vertices, %d black; %d pairs, %d lost; error of values: median "
         "%.2g, 99%% %.2g, of their sum %.2g; worst of weights %.2g\n",
         e.vertices, e.turned_black, e.pairs, e.lost, e.quantile(0.5), e.quantile(0.99),
         e.back_sum / e.value_sum - 1, e.worst_weight);

@@ -61,9 +61,17 @@ Chain reversed(const Chain& c) {
   return r;
 }
 
+Launch launch_of(uint heuristic, double merging) {
+  Launch launch{};
+  launch.mis = heuristic;
+  launch.mis_vm = merges ? float(merging) : 0.0f;
+  launch.mis_vc = merges ? float(1 / merging) : 0.0f;
+  return launch;
+}
+
 /// Partials after arriving at each vertex from the second on. The start is drawn the same way by
 /// all strategies that draw it, and `hit`: also by chance from the other end.
-std::vector<Partials> partials_along(uint heuristic, const Chain& c, bool hit) {
+std::vector<Partials> partials_along(const Launch& launch, const Chain& c, bool hit) {
   std::vector<Partials> all(vertices);
   Partials q = partials_start(real(1) / c.forward(0),
                               hit ? real(c.cos_leave[0] / c.density_a[0]) / c.forward(0) : real(0));
@@ -71,20 +79,22 @@ std::vector<Partials> partials_along(uint heuristic, const Chain& c, bool hit) {
     partials_arrive(&q, real(c.distance2[i - 1]), real(c.cos_arrive[i]));
     all[i] = q;
     if (i + 1 < vertices)
-      partials_scatter(heuristic, &q, c.forward(i), c.backward(i), real(c.cos_leave[i]));
+      partials_scatter(launch, &q, c.forward(i), c.backward(i), real(c.cos_leave[i]));
   }
   return all;
 }
 
-/// Weights of the strategies that draw vertices 0 .. s-1 from the light, by sums of logarithms. One
-/// end of the chain is the camera, which no walk hits.
-std::vector<double> exact_weights(uint heuristic, const Chain& c) {
+/// Weights of the strategies that draw vertices 0 .. s-1 from the light, then of merging at vertex
+/// 1, 2, ..., by sums of logarithms. One end of the chain is the camera, which no walk hits.
+std::vector<double> exact_weights(const Launch& launch, const Chain& c) {
   std::vector<double> logs(vertices);
   for (int s = 1; s < vertices; ++s)
     logs[s] = logs[s - 1] + std::log(double(c.density_a[s - 1]) / double(c.reverse_a[s - 1]));
+  for (int i = 1; merges && i + 1 < vertices; ++i)
+    logs.push_back(logs[i] + std::log(c.density_a[i] * double(launch.mis_vm)));
   const double most = *std::max_element(logs.begin(), logs.end());
   double sum = 0;
-  for (double& x : logs) sum += x = std::exp((heuristic == MIS_POWER ? 2 : 1) * (x - most));
+  for (double& x : logs) sum += x = std::exp((launch.mis == MIS_POWER ? 2 : 1) * (x - most));
   for (double& x : logs) x /= sum;
   return logs;
 }
@@ -94,25 +104,43 @@ struct Errors {
   int chains = 0, bad = 0, not_numbers = 0;
 };
 
-Errors errors_of(uint heuristic, double spread, int chains) {
+/// Weight by the recursion of joining light vertex s - 1 to vertex s.
+real joined(const Launch& launch, const Chain& c, int s, const Partials& light,
+            const Partials& eye) {
+  return partial_weight(launch.mis,
+                        partials_end(launch, light, real(c.reverse_a[s - 1]), c.backward(s - 1)),
+                        partials_end(launch, eye, real(c.density_a[s]), c.forward(s)));
+}
+
+/// The same of merging at vertex i.
+real merged(const Launch& launch, const Chain& c, int i, const Partials& light,
+            const Partials& eye) {
+#ifdef TWIN_MERGE
+  return partial_weight(launch.mis, partials_merge(launch, light, c.backward(i)),
+                        partials_merge(launch, eye, c.forward(i)));
+#else
+  return real(0);
+#endif
+}
+
+Errors errors_of(const Launch& launch, double spread, int chains) {
   Random random(5);
   Errors e;
   for (int n = 0; n < chains; ++n) {
     const Chain light = random_chain(random, spread), eye = reversed(light);
-    const std::vector<Partials> from_light = partials_along(heuristic, light, true),
-                                from_eye = partials_along(heuristic, eye, false);
-    const std::vector<double> exact = exact_weights(heuristic, light);
+    const std::vector<Partials> from_light = partials_along(launch, light, true),
+                                from_eye = partials_along(launch, eye, false);
+    const std::vector<double> exact = exact_weights(launch, light);
     double worst = 0;
-    for (int s = 2; s + 2 <= vertices; ++s) {  // light vertex s-1 joined to the eye's number j
-      const int j = vertices - 1 - s;
-      const real w = partial_weight(
-          heuristic,
-          partials_end(heuristic, from_light[s - 1], real(light.reverse_a[s - 1]),
-                       light.backward(s - 1)),
-          partials_end(heuristic, from_eye[j], real(light.density_a[s]), eye.backward(j)));
+    const auto compare = [&](real w, double expected) {
       if (!std::isfinite(w)) ++e.not_numbers;
-      worst = std::max(worst, std::abs(double(w) - exact[s]));
-    }
+      worst = std::max(worst, std::abs(double(w) - expected));
+    };
+    for (int s = 2; s + 2 <= vertices; ++s)
+      compare(joined(launch, light, s, from_light[s - 1], from_eye[vertices - 1 - s]), exact[s]);
+    for (int i = 1; merges && i + 1 < vertices; ++i)
+      compare(merged(launch, light, i, from_light[i], from_eye[vertices - 1 - i]),
+              exact[vertices + i - 1]);
     e.worst = std::max(e.worst, worst);
     e.bad += worst > 1e-4;
     ++e.chains;
@@ -121,14 +149,29 @@ Errors errors_of(uint heuristic, double spread, int chains) {
 }
 
 TEST(AuditPartials, LongChainsOfWildRatios) {
+  const std::vector<double> radii = merges ? std::vector{1e-6, 1.0, 1e6} : std::vector{0.0};
   for (uint heuristic : {MIS_BALANCE, MIS_POWER})
-    for (double spread : {1.0, 3.5, 6.0}) {
-      const Errors e = errors_of(heuristic, spread, 4000);
-      std::printf("%s, ratios 10^+-%g: worst error %.2g, %d of %d chains beyond 1e-4\n",
-                  heuristic == MIS_POWER ? "power" : "balance", spread, e.worst, e.bad, e.chains);
-      EXPECT_EQ(e.not_numbers, 0);
-      EXPECT_LT(e.worst, 1e-4) << e.bad << " of " << e.chains << " chains";
-    }
+    for (double merging : radii)
+      for (double spread : {1.0, 3.5, 6.0}) {
+        const Errors e = errors_of(launch_of(heuristic, merging), spread, merges ? 1000 : 4000);
+        std::printf(
+            "%s, merging %g, ratios 10^+-%g: worst error %.2g, %d of %d chains beyond 1e-4\n",
+            heuristic == MIS_POWER ? "power" : "balance", merging, spread, e.worst, e.bad,
+            e.chains);
+        EXPECT_EQ(e.not_numbers, 0);
+        EXPECT_LT(e.worst, 1e-4) << e.bad << " of " << e.chains << " chains";
+      }
+}
+
+// Strategies that cannot draw the way back are gone, however much they weighed before.
+TEST(AuditPartials, NoWayBackLeavesWhatEndsHere) {
+  const Launch launch = launch_of(MIS_BALANCE, 3);
+  for (uint scale : {0u, 1u, 2u, 3u}) {
+    Partials q = partials_start(real(2), real(5));
+    q.scale = scale;
+    partials_scatter(launch, &q, real(0.5), real(0), real(0.25));
+    EXPECT_EQ(double(partials_dVC(q)), (merges ? 5 : 2) * 0.25 / 0.5) << scale;
+  }
 }
 
 }  // namespace

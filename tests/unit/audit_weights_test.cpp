@@ -53,6 +53,10 @@ class Audit {
     EXPECT_LT(worst_replay_, tolerance);
     EXPECT_LT(worst_sum_, tolerance);
     EXPECT_LT(grazing_, found_ / 3);
+    if (!merges) return;
+    std::printf("  merges have %.2g of the weights\n", merged_ / replayed_);
+    EXPECT_GT(merged_ / replayed_, 0.1);  // both matter, over all radii
+    EXPECT_LT(merged_ / replayed_, 0.9);
   }
 
   /// Counts of what the audited paths were made of.
@@ -86,10 +90,12 @@ class Audit {
     double sum = 0;
     for (std::size_t s = 0; s < exact.size(); ++s) {
       const double w = double(again.weight(s));
+      if (s >= path.nodes.size() + 2) merged_ += exact[s];
       note(worst_replay_, std::abs(exact[s] - w), path, "replayed");
       sum += w;
     }
     note(worst_sum_, std::abs(sum - 1), path, "sum");
+    ++replayed_;
   }
   void note(double& worst, double error, const FullPath& path, const char* what) {
     if (!(error < tolerance) && !(worst >= tolerance)) describe(path, error, what);
@@ -113,9 +119,14 @@ class Audit {
 
   const TwinScene& twin_;
   const Launch& launch_;
-  int found_ = 0, grazing_ = 0;
+  int found_ = 0, grazing_ = 0, replayed_ = 0;
+  double merged_ = 0;  ///< weight of merges, over all replays
   double worst_found_ = 0, worst_replay_ = 0, worst_sum_ = 0;
 };
+
+/// Merging finds as much as other strategies somewhere between: powers of two, whose inverses are
+/// exact as floats.
+constexpr float merging[] = {0x1p-20f, 0x1p-10f, 0x1p-5f, 0x1p-2f, 1, 0x1p2f, 0x1p7f, 0x1p20f};
 
 Launch launch_of(uint heuristic) {
   Launch launch{};
@@ -134,6 +145,10 @@ void audit(const char* name, bool open, uint heuristic) {
   const auto record = [&](const FullPath& path) { audit(path); };
   for (uint path = 0; path < 1024 * 8; ++path) {
     launch.iteration = path / 1024;
+    if (merges) {
+      launch.mis_vm = merging[launch.iteration];
+      launch.mis_vc = 1 / launch.mis_vm;
+    }
     PathFinder<decltype(record)> finder(twin, launch, record);
     const real3 radiance = finder.run(path % 1024);
     const Ray ray = finder.camera_ray_of(path % 1024);

@@ -47,7 +47,19 @@ target_compile_definitions(audit_float_tests PRIVATE PELLUCID_REAL=float PELLUCI
 pellucid_twin_executable(audit_double_tests "double." ${audit_sources})
 target_compile_definitions(audit_double_tests PRIVATE PELLUCID_REAL=double TWIN_CONNECT=1)
 
-foreach(twin twin_float_tests twin_double_tests audit_float_tests audit_double_tests)
+# The same with merges as in `vcm`: weights, and what is stored of vertices.
+set(merge_sources audit_weights_test.cpp audit_partials_test.cpp audit_vertex_test.cpp
+    audit_compact_test.cpp)
+list(TRANSFORM merge_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
+pellucid_twin_executable(audit_merge_float_tests "float.merge." ${merge_sources})
+target_compile_definitions(audit_merge_float_tests PRIVATE PELLUCID_REAL=float
+  PELLUCID_REAL_IS_FLOAT=1 TWIN_CONNECT=1 TWIN_MERGE=1)
+pellucid_twin_executable(audit_merge_double_tests "double.merge." ${merge_sources})
+target_compile_definitions(audit_merge_double_tests PRIVATE PELLUCID_REAL=double TWIN_CONNECT=1
+  TWIN_MERGE=1)
+
+foreach(twin twin_float_tests twin_double_tests audit_float_tests audit_double_tests
+        audit_merge_float_tests audit_merge_double_tests)
   target_compile_options(${twin} PRIVATE ${twin_flags})
 endforeach()
 pellucid_twin_executable(pack_tests "" ${pack_sources})
