@@ -46,20 +46,23 @@ void add_eye_passes(bool connects, std::vector<Pass>& passes) {
   passes.push_back({"film_add", {B::film, B::splat, B::diag}});
 }
 
-Integrator merging(const std::string& name, const std::string& summary, FeatureSet wishes) {
-  const bool connects = wishes.has(INTG_CONNECT);
+Integrator merging(const std::string& name, const std::string& summary, FeatureSet wishes,
+                   uint most_s) {
   std::vector<Pass> passes = photon_passes();
-  add_eye_passes(connects, passes);
-  return {name, summary, wishes, connects, passes, connects ? LAYER_LENGTH_MAX : 1};
+  add_eye_passes(wishes.has(INTG_CONNECT), passes);
+  const bool weighs = wishes.has(INTG_CONNECT) || !wishes.has(INTG_NEE);
+  return {name, summary, wishes, weighs, passes, most_s};
 }
 
 }  // namespace
 
+/// One code under flags: `vcm` without merging is `bdpt`, without connections `bpm`.
 std::vector<Integrator> merging_integrators() {
   return {
-      merging("sppm", "stochastic progressive photon mapping", {INTG_NEE, INTG_MIS, INTG_MERGE}),
+      merging("sppm", "stochastic progressive photon mapping", {INTG_NEE, INTG_MIS, INTG_MERGE}, 1),
+      merging("bpm", "bidirectional photon mapping: the merging of vcm alone", {INTG_MERGE}, 0),
       merging("vcm", "vertex connection and merging",
-              {INTG_NEE, INTG_MIS, INTG_SPLAT, INTG_CONNECT, INTG_MERGE})};
+              {INTG_NEE, INTG_MIS, INTG_SPLAT, INTG_CONNECT, INTG_MERGE}, LAYER_LENGTH_MAX)};
 }
 
 }  // namespace pellucid

@@ -24,7 +24,7 @@ INLINE real3 merge_cell(PRIVATE const SceneData* scene, Launch launch,
     Photon photon = photons[i];
     uint depth = eye->depth + photon.depth;
     if (depth > launch.max_depth) continue;
-#if !INTG_CONNECT
+#if INTG_GATHER
     if (photon.depth == 1u) continue;  // light samples have brought it
 #endif
     Merge merge;
