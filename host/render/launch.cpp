@@ -56,7 +56,6 @@ void set_merging(Launch& launch, double first_radius, double alpha, uint grid_bi
   const double eta = pi * radius * radius * launch.light_paths;
   launch.radius = float(radius);
   launch.merge_scale = float(1 / eta);
-  launch.merge_scale = float(1 / eta);
   launch.mis_vm = float(eta);
   launch.mis_vc = float(1 / eta);
   launch.cell_size = 2 * launch.radius;
