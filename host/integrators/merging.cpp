@@ -1,6 +1,6 @@
 // Methods that merge eye paths with the light vertices around them.
 #include "integrators/registry.h"
-#include "shared/limits.h"
+#include "render/photon_grid.h"
 
 namespace pellucid {
 namespace {
@@ -15,14 +15,8 @@ std::vector<Pass> photon_passes() {
        Domain::light_paths,
        true},
       {"vertex_scan", {B::light_vertices, B::eye_vertices}, Domain::sides},
-      {"vertex_order", {B::light_vertices, B::eye_vertices}, Domain::sub_paths},
-      {"grid_keys", {B::scene, B::light_vertices, B::grid, B::diag}, Domain::photons}};
-  for (uint digit = 0; digit < SORT_PASSES; ++digit) {
-    passes.push_back({"grid_count", {B::grid}, Domain::blocks, false, digit});
-    passes.push_back({"grid_scan", {B::grid}, Domain::sides, false, digit});
-    passes.push_back({"grid_scatter", {B::grid}, Domain::blocks, false, digit});
-  }
-  passes.push_back({"grid_ranges", {B::light_vertices, B::grid}, Domain::photons});
+      {"vertex_order", {B::light_vertices, B::eye_vertices}, Domain::sub_paths}};
+  for (const Pass& pass : grid_passes()) passes.push_back(pass);
   return passes;
 }
 
