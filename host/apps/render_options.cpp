@@ -90,7 +90,7 @@ void set_merging(const RenderFlags& flags, const Integrator& method, RenderOptio
 /// What concerns sub-paths from lights. Throws UsageError where the method has none.
 void set_sub_paths(const RenderFlags& flags, const Integrator& method, RenderOptions& o) {
   if (flags.light_paths) {
-    if (!method.wishes.has(INTG_SPLAT))
+    if (!method.walks_from_lights())
       throw UsageError("--light-paths has no effect on '" + method.name + "', which traces none");
     o.light_paths = uint(flags.light_paths);
   }
@@ -143,7 +143,7 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
       ->type_name(integrator_names());
   app.add_option(
          "--mis", f.mis,
-         "how `path` and `bdpt` weigh their strategies (default balance); max: `path` alone")
+         "how methods weigh their strategies (default balance); max: `path` alone")
       ->type_name("balance|power|max");
   app.add_option("--spp", f.spp, "samples per pixel (default: the scene's, else 64)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));
@@ -169,7 +169,7 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
          "to 16 roundings of the largest coordinate")
       ->type_name("NUMBER");
   app.add_option("--vertices", f.vertices,
-                 "how `bdpt` keeps vertices: full (default), or compact, in half the memory")
+                 "how path vertices are kept: full (default), or compact, in half the memory")
       ->type_name("full|compact");
   app.add_option("--seed", f.seed, "random seed (default 0)")->check(whole_number);
 }
