@@ -13,7 +13,7 @@ namespace {
 
 PackedScene scene_reaching(float coordinate) {
   PackedScene scene;
-  scene.info.bounds_reach = F4{1, coordinate, 0.5f * coordinate, 0};
+  scene.info.bounds_reach = F4{0, coordinate, 0.5f * coordinate, 0};
   return scene;
 }
 
