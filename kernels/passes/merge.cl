@@ -3,6 +3,7 @@
 // samples [pixels of the tile] (adds), diag. Domain: pixels of the slice. Atomics: diag only. Next:
 // film_add. Flags: INTG_CONNECT, INTG_COMPACT.
 #include "passes/bundles.h"
+#if INTG_MERGE
 #include "transport/merge.h"
 
 /// Sum over the photons around one vertex.
@@ -54,3 +55,4 @@ __kernel void merge(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARA
   }
   samples[pixel] += (float4)(sum, 0.0f);
 }
+#endif
