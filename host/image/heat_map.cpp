@@ -30,6 +30,11 @@ int series_below(double value) {
   return i;
 }
 
+std::array<float, 3> colour_at(float place) {
+  constexpr float lowest = 0.15f;  // apart from black
+  return heat_colour(lowest + (1 - lowest) * place);
+}
+
 /// Where everything goes.
 struct Layout {
   int grow, panel_width, panel_height;
@@ -59,7 +64,7 @@ void draw_pixels(Canvas& canvas, int x0, int y0, int grow, int width, int height
     for (int x = 0; x < width * grow; ++x) {
       const std::size_t i = std::size_t(y / grow) * std::size_t(width) + std::size_t(x / grow);
       if (!map.parity.empty() && map.parity[i] == 0) continue;
-      const auto colour = heat_colour(scale.place(map.values[i]));
+      const auto colour = scale.colour(map.values[i]);
       for (std::size_t c = 0; c < 3; ++c)
         canvas.pixel(x0 + x, y0 + y)[c] =
             map.parity.empty() ? colour[c] : toned(colour[c], map.parity[i]);
@@ -70,7 +75,7 @@ void draw_pixels(Canvas& canvas, int x0, int y0, int grow, int width, int height
 void draw_scale(Canvas& canvas, int x0, int y0, int width, const HeatScale& scale) {
   const auto column = [&](double place) { return x0 + int(std::lround(place * (width - 1))); };
   for (int x = 0; x < width; ++x) {
-    const auto colour = heat_colour(float(x) / float(width - 1));
+    const auto colour = colour_at(float(x) / float(width - 1));
     for (int y = 0; y < bar; ++y)
       std::copy(colour.begin(), colour.end(), canvas.pixel(x0 + x, y0 + y));
   }
@@ -92,6 +97,10 @@ void draw_scale(Canvas& canvas, int x0, int y0, int width, const HeatScale& scal
 float HeatScale::place(float value) const {
   if (!(double(value) > low)) return 0.0f;
   return float(std::min(1.0, std::log(double(value) / low) / std::log(high / low)));
+}
+
+std::array<float, 3> HeatScale::colour(float value) const {
+  return value > 0 ? colour_at(place(value)) : std::array<float, 3>{};
 }
 
 std::vector<double> HeatScale::ticks() const {

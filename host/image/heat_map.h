@@ -1,6 +1,7 @@
 // Numbers as false colours beside each other, each with the scale that says what its colours mean.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct HeatScale {
 
   /// From 0 to 1; what is below or beyond is cut.
   float place(float value) const;
+  /// Black for 0 alone: the lowest end is dark blue.
+  std::array<float, 3> colour(float value) const;
   /// All of the series from low to high.
   std::vector<double> ticks() const;
 };

@@ -47,13 +47,17 @@ TEST(HeatMap, places_are_logarithms) {
   EXPECT_FLOAT_EQ(scale.place(10), 0.5f);
   EXPECT_EQ(scale.place(100), 1.0f);
   EXPECT_EQ(scale.place(1e9f), 1.0f);
+  EXPECT_EQ(scale.colour(0), (std::array<float, 3>{0, 0, 0}));
+  EXPECT_EQ(scale.colour(1), scale.colour(0.5f));
+  EXPECT_NE(scale.colour(1), scale.colour(0)) << "little is not nothing";
+  EXPECT_EQ(scale.colour(100), (std::array<float, 3>{1, 1, 1}));
 }
 
 TEST(HeatMap, pixels_have_the_colours_of_their_values) {
   constexpr int w = 200, h = 180;
   std::vector<float> halves = flat(w, h, 1.5f);
   std::fill_n(halves.begin(), w * h / 2, 0.0f);
-  const std::array<float, 3> colour = heat_colour(heat_scale(halves).place(1.5f));
+  const std::array<float, 3> colour = heat_scale(halves).colour(1.5f);
   const std::vector<HeatMap> one{{"photons", halves, {}}};
   EXPECT_EQ(count_of(draw_heat_maps(w, h, one), colour), w * h / 2);
   EXPECT_GE(count_of(draw_heat_maps(w, h, one), {0, 0, 0}), w * h / 2);
@@ -63,7 +67,7 @@ TEST(HeatMap, pixels_have_the_colours_of_their_values) {
     std::fill_n(parity.begin(), w, 2.0f);
     std::fill_n(parity.begin() + w, 3 * w, 0.0f);
     const Image image = draw_heat_maps(w, h, {{"", flat(w, h, value), parity}});
-    std::array<float, 3> dark = heat_colour(heat_scale(flat(w, h, value)).place(value));
+    std::array<float, 3> dark = heat_scale(flat(w, h, value)).colour(value);
     for (float& c : dark) c *= 0.85f;
     EXPECT_GE(count_of(image, dark), w * (h - 4));
     for (float& c : dark) c += 0.15f;
