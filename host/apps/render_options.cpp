@@ -234,7 +234,7 @@ void RenderFlags::declare_files(CLI::App& app) {
                  "length, columns by s; implies --aov tech")
       ->type_name("FILE");
   app.add_option("--grid", grid,
-                 "draw the photon grid of `sppm` and `vcm` in false colours: photons found, "
+                 "draw the photon grid of methods that merge in false colours: photons found, "
                  "occupied cells, radius; implies --aov photons,cells,radius")
       ->type_name("FILE");
   display.declare(app);

@@ -120,8 +120,8 @@ def test_usage():
            "light, bdpt")
     for method in ("path", "light", "bdpt"):
         for aov in ("photons", "cells", "radius"):
-            expect(2, [*QUICK, "-i", method, "--aov", aov], f"--aov {aov}: '{method}'", "sppm, vcm")
-        expect(2, [*QUICK, "-i", method, "--grid", "g.png"], f"--grid: '{method}'", "sppm, vcm")
+            expect(2, [*QUICK, "-i", method, "--aov", aov], f"--aov {aov}: '{method}'", "sppm", "vcm")
+        expect(2, [*QUICK, "-i", method, "--grid", "g.png"], f"--grid: '{method}'", "sppm", "vcm")
     expect(2, [*QUICK, "-i", "vcm", "--grid", "g.exr"], "--grid 'g.exr'")
     expect(2, [*QUICK, "-i", "vcm", "--grid", "g.png", "--atlas", "./g.png"], "same file")
 
