@@ -131,11 +131,11 @@ TEST(Photons, cells_hold_them_all) {
 
 TEST(Photons, radius_in_pixels) {
   // At an angle a to the axis the floor is height / cos a away, where a pixel of area cos^3 a / D^2
-  // in solid angle is height / (D sqrt(cos a)) wide.
+  // in solid angle is height sqrt(cos a) / D wide, across the ray.
   const auto of = images(render(sunny_floor(), options_for({0, 1})));
   const auto wide = [&](double x, double y) {
     const double cos_a = height / std::sqrt(x * x + y * y + height * height);
-    return first_radius / pixel / std::sqrt(1 / cos_a);
+    return first_radius / pixel / std::sqrt(cos_a);
   };
   for (std::size_t y = 0; y < side; ++y)
     for (std::size_t x = 0; x < side; ++x) {
