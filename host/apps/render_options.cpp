@@ -125,12 +125,15 @@ std::string aov_help() {
   return "further EXR channels, by comma: " + join(texts);
 }
 
-/// Names of the methods that trace light from the lights.
-std::vector<std::string> light_tracers() {
-  std::vector<std::string> names;
-  for (const Integrator& method : integrators())
-    if (method.wishes.has(INTG_SPLAT)) names.push_back(method.name);
-  return names;
+/// Throws UsageError where the method has nothing to put into a layer that `option` asks for.
+void check_layer(const LayerInfo& layer, const std::string& option, const Integrator& method) {
+  if (!layer.needs || method.wishes.has(*layer.needs)) return;
+  std::vector<std::string> others;
+  for (const Integrator& other : integrators())
+    if (other.wishes.has(*layer.needs)) others.push_back(other.name);
+  throw UsageError(
+      fmt::format("{}: '{}' {}; {}", option, method.name, layer.without,
+                  others.empty() ? "no method here does" : "methods that do: " + join(others)));
 }
 
 /// Method, effort and where samples lie.
@@ -230,6 +233,10 @@ void RenderFlags::declare_files(CLI::App& app) {
                  "draw what every strategy brings, weighted and not, as a pyramid: rows by path "
                  "length, columns by s; implies --aov tech")
       ->type_name("FILE");
+  app.add_option("--grid", grid,
+                 "draw the photon grid of methods that merge in false colours: photons found, "
+                 "occupied cells, radius; implies --aov photons,cells,radius")
+      ->type_name("FILE");
   display.declare(app);
 }
 
@@ -262,7 +269,7 @@ void RenderFlags::override_settings(RenderSettings& settings) const {
 }
 
 uint RenderFlags::layer_kinds() const {
-  uint kinds = atlas.empty() ? 0 : LAYERS_TECH;
+  uint kinds = (atlas.empty() ? 0 : LAYERS_TECH) | (grid.empty() ? 0 : LAYERS_GRID);
   for (const LayerInfo& info : layer_table())
     if (std::find(aovs.begin(), aovs.end(), info.name) != aovs.end()) kinds |= info.kind;
   return kinds;
@@ -272,11 +279,10 @@ Integrator RenderFlags::method(const Scene& s) const {
   constexpr uint default_length = 5;
   const Integrator& plain = choose_integrator(integrator, s);
   const uint kinds = layer_kinds();
-  if (kinds & LAYERS_VERTICES && !plain.wishes.has(INTG_SPLAT))
-    throw UsageError(
-        fmt::format("--aov light-vertices: '{}' makes no light vertices; {}", plain.name,
-                    light_tracers().empty() ? "no method here does"
-                                            : "methods that do: " + join(light_tracers())));
+  for (const LayerInfo& layer : layer_table()) {
+    const bool by_name = std::find(aovs.begin(), aovs.end(), layer.name) != aovs.end();
+    if (kinds & layer.kind) check_layer(layer, by_name ? "--aov " + layer.name : "--grid", plain);
+  }
   return with_layers(plain, kinds, aov_length ? uint(aov_length) : default_length);
 }
 
@@ -310,7 +316,8 @@ std::vector<std::string> RenderFlags::output_names(const Scene& s) const {
 }
 
 std::vector<std::string> RenderFlags::results(std::vector<std::string> pictures) const {
-  if (!atlas.empty()) pictures.push_back(atlas);
+  for (const std::string& drawn : {atlas, grid})
+    if (!drawn.empty()) pictures.push_back(drawn);
   return pictures;
 }
 
@@ -328,6 +335,7 @@ void RenderFlags::check() const {
   if (aov_length && !(layer_kinds() & (LAYERS_LENGTH | LAYERS_TECH)))
     throw UsageError("--aov-length needs --aov length, --aov tech or --atlas FILE beside it");
   if (!atlas.empty()) check_display_type("--atlas", atlas);
+  if (!grid.empty()) check_display_type("--grid", grid);
   one_of("--sampler", sampler, sampler_names());
   display.transform();
 }
