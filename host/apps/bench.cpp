@@ -17,6 +17,7 @@
 #include "bench/method_bench.h"
 #include "bench/ray_bench.h"
 #include "bench/sampler_bench.h"
+#include "bench/sort_bench.h"
 #include "integrators/registry.h"
 
 namespace pellucid {
@@ -34,6 +35,7 @@ struct BenchCommand {
   ExitCode run_rays(const CommonOptions& common) const;
   ExitCode run_sampler(const CommonOptions& common) const;
   ExitCode run_methods(const CommonOptions& common) const;
+  ExitCode run_sorts(const CommonOptions& common) const;
 };
 
 /// Cells slower than in the baseline by more than `allowed` (a fraction), or absent there; empty:
@@ -149,14 +151,28 @@ ExitCode BenchCommand::run_methods(const CommonOptions& common) const {
   return ExitCode::done;
 }
 
+ExitCode BenchCommand::run_sorts(const CommonOptions& common) const {
+  const Device target = device.open();
+  Progress progress("bench");
+  SortBenchOptions options;
+  options.repeats = repeats;
+  options.plan.kernel_dir = kernel_dir;
+  options.progress = [&](const std::string& text) { progress.update(text); };
+  const nlohmann::json document = sorts_document(bench_sorts(target, options), target.info());
+  if (common.wants_text()) print_result(sorts_text(document));
+  write_json(common.json, document);
+  return ExitCode::done;
+}
+
 ExitCode BenchCommand::run(const CommonOptions& common) const {
-  const std::vector<std::string> workloads{"rays", "render", "sampler"};
+  const std::vector<std::string> workloads{"rays", "render", "sampler", "sort"};
   if (std::find(workloads.begin(), workloads.end(), only) == workloads.end())
     throw UsageError("--only: there is no workload '" + only + "'; there are " + join(workloads) +
                      "." + did_you_mean(only, workloads));
   if (!scenes_asked.empty() && only != "render") throw UsageError("--scene is for --only render");
   if (!baseline.empty() && only != "rays") throw UsageError("--baseline is for --only rays");
   if (only == "rays") return run_rays(common);
+  if (only == "sort") return run_sorts(common);
   return only == "render" ? run_methods(common) : run_sampler(common);
 }
 
@@ -166,8 +182,9 @@ CommandRun setup_bench(CLI::App& app) {
   auto c = std::make_shared<BenchCommand>();
   app.add_option("--only", c->only,
                  "which workload: rays (default); render: every method on every kind of scene; "
-                 "sampler: what Sobol points are worth")
-      ->type_name("rays|render|sampler");
+                 "sampler: what Sobol points are worth; sort: the photon grid beside sorts by the "
+                 "host")
+      ->type_name("rays|render|sampler|sort");
   app.add_option("--scene", c->scenes_asked,
                  "with --only render: this scene instead of the workload's; repeatable")
       ->type_name("SCENE")

@@ -9,6 +9,7 @@
 #include "bench/method_bench.h"
 #include "bench/ray_bench.h"
 #include "bench/sampler_bench.h"
+#include "bench/sort_bench.h"
 
 namespace pellucid {
 namespace {
@@ -147,6 +148,47 @@ std::string methods_text(const nlohmann::json& d) {
         c["relmse"].get<double>(), c["relmse_low"].get<double>(), c["relmse_high"].get<double>(),
         c["seconds"].get<double>(), c["mrays_per_s"].get<double>(), c["gain"].get<double>());
   return text + "gain: efficiency 1 / (relMSE x seconds) over that of path\n";
+}
+
+nlohmann::json sorts_document(const std::vector<SortCell>& cells, const DeviceInfo& device) {
+  using nlohmann::json;
+  json sorts = json::array();
+  for (const SortCell& c : cells) {
+    json passes = json::object();
+    for (const auto& [pass, seconds] : c.passes) passes[pass] = seconds;
+    sorts.push_back({{"photons", c.photons},
+                     {"build_mphotons_per_s", c.build.median},
+                     {"build_mphotons_per_s_iqr", c.build.iqr},
+                     {"stable_sort_mphotons_per_s", c.stable_sort.median},
+                     {"ratio_stable_sort", c.ratio_stable.median},
+                     {"radix_sort_mphotons_per_s", c.radix_sort.median},
+                     {"ratio_radix_sort", c.ratio_radix.median},
+                     {"pass_seconds", passes}});
+  }
+  return {{"workload", "sort-1"},
+          {"device", device.name},
+          {"driver", device.platform_name + " " + device.driver},
+          {"clock", device.cpu ? "cpu" : "wall"},
+          {"sorts", sorts}};
+}
+
+std::string sorts_text(const nlohmann::json& d) {
+  std::string text = fmt::format(
+      "{} ({} time), millions of photons per second\n{:>9} {:>7} {:>12} {:>6} {:>11} "
+      "{:>6}  ms of passes\n",
+      d["device"].get<std::string>(), d["clock"].get<std::string>(), "photons", "grid",
+      "stable_sort", "ratio", "radix sort", "ratio");
+  for (const auto& c : d["sorts"]) {
+    text += fmt::format(
+        "{:>9} {:>7.1f} {:>12.1f} {:>6.2f} {:>11.1f} {:>6.2f} ", c["photons"].get<int>(),
+        c["build_mphotons_per_s"].get<double>(), c["stable_sort_mphotons_per_s"].get<double>(),
+        c["ratio_stable_sort"].get<double>(), c["radix_sort_mphotons_per_s"].get<double>(),
+        c["ratio_radix_sort"].get<double>());
+    for (const auto& [pass, seconds] : c["pass_seconds"].items())
+      text += fmt::format(" {} {:.2f}", pass.substr(5), 1e3 * seconds.get<double>());  // "grid_"
+    text += "\n";
+  }
+  return text + "the grid: keys, sort and photons in order, by all cores; the host's: by one\n";
 }
 
 }  // namespace pellucid

@@ -20,6 +20,7 @@
 #include "base/timer.h"
 #include "integrators/registry.h"
 #include "render/aov.h"
+#include "render/launch.h"
 
 namespace pellucid {
 namespace {
@@ -247,6 +248,7 @@ ExitCode RenderJob::run() {
     return pack_scene(scene_, {simd_width_for(target.info())});
   }();
   facts_.packed = &packed;
+  if (o.radius) check_radius(packed, *o.radius);
   if (flags_.dry_run) {
     image_library.get();
     tell_plan(facts_, flags_.results(names_), common_);

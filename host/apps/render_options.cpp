@@ -17,6 +17,7 @@
 #include "integrators/registry.h"
 #include "render/aov.h"
 #include "render/checkpoint.h"
+#include "shared/limits.h"
 
 namespace pellucid {
 namespace {
@@ -74,9 +75,9 @@ void set_merging(const RenderFlags& flags, const Integrator& method, RenderOptio
                        "', which merges nothing");
   if (!flags.radius.empty()) {
     o.radius = parse_number("--radius", flags.radius);
-    // Squares of it and their inverse have to be floats.
-    if (!(*o.radius >= 1e-15 && *o.radius <= 1e15))
-      throw UsageError("--radius takes a length from 1e-15 to 1e15, not '" + flags.radius + "'");
+    if (!(*o.radius >= MERGE_RADIUS_MIN && *o.radius <= MERGE_RADIUS_MAX))
+      throw UsageError(fmt::format("--radius takes a length from {:.2g} to {:.2g}, not '{}'",
+                                   MERGE_RADIUS_MIN, MERGE_RADIUS_MAX, flags.radius));
   }
   if (!flags.radius_alpha.empty()) {
     o.radius_alpha = parse_number("--radius-alpha", flags.radius_alpha);
@@ -164,7 +165,8 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
       ->type_name("LENGTH");
   app.add_option(
          "--radius-alpha", f.radius_alpha,
-         "how the radius shrinks, above 0 and up to 1 (default 0.75): as pass^((alpha-1)/2)")
+         "how the radius shrinks, above 0 and up to 1 (default 0.75): as pass^((alpha-1)/2), down "
+         "to 16 roundings of the largest coordinate")
       ->type_name("NUMBER");
   app.add_option("--vertices", f.vertices,
                  "how `bdpt` keeps vertices: full (default), or compact, in half the memory")

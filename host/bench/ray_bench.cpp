@@ -14,14 +14,6 @@
 namespace pellucid {
 namespace {
 
-Figure figure_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double q) {
-    return values[std::size_t(q * double(values.size() - 1) + 0.5)];
-  };
-  return {at(0.5), at(0.75) - at(0.25)};
-}
-
 struct Contest {
   RayTracer& ours;
   EmbreeRays* embree;

@@ -6,14 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/figure.h"
 #include "bench/ray_sets.h"
 
 namespace pellucid {
-
-/// One figure with its spread: median and interquartile range of the repeats.
-struct Figure {
-  double median = 0, iqr = 0;
-};
 
 struct RayCell {
   std::uint32_t triangles = 0;

@@ -1,6 +1,6 @@
 // Methods that merge eye paths with the light vertices around them.
 #include "integrators/registry.h"
-#include "shared/limits.h"
+#include "render/photon_grid.h"
 
 namespace pellucid {
 namespace {
@@ -15,14 +15,8 @@ std::vector<Pass> photon_passes() {
        Domain::light_paths,
        true},
       {"vertex_scan", {B::light_vertices, B::eye_vertices}, Domain::sides},
-      {"vertex_order", {B::light_vertices, B::eye_vertices}, Domain::sub_paths},
-      {"grid_keys", {B::scene, B::light_vertices, B::grid, B::diag}, Domain::photons}};
-  for (uint digit = 0; digit < SORT_PASSES; ++digit) {
-    passes.push_back({"grid_count", {B::grid}, Domain::blocks, false, digit});
-    passes.push_back({"grid_scan", {B::grid}, Domain::sides, false, digit});
-    passes.push_back({"grid_scatter", {B::grid}, Domain::blocks, false, digit});
-  }
-  passes.push_back({"grid_ranges", {B::light_vertices, B::grid}, Domain::photons});
+      {"vertex_order", {B::light_vertices, B::eye_vertices}, Domain::sub_paths}};
+  for (const Pass& pass : grid_passes()) passes.push_back(pass);
   return passes;
 }
 
@@ -46,20 +40,23 @@ void add_eye_passes(bool connects, std::vector<Pass>& passes) {
   passes.push_back({"film_add", {B::film, B::splat, B::diag}});
 }
 
-Integrator merging(const std::string& name, const std::string& summary, FeatureSet wishes) {
-  const bool connects = wishes.has(INTG_CONNECT);
+Integrator merging(const std::string& name, const std::string& summary, FeatureSet wishes,
+                   uint most_s) {
   std::vector<Pass> passes = photon_passes();
-  add_eye_passes(connects, passes);
-  return {name, summary, wishes, connects, passes, connects ? LAYER_LENGTH_MAX : 1};
+  add_eye_passes(wishes.has(INTG_CONNECT), passes);
+  const bool weighs = wishes.has(INTG_CONNECT) || !wishes.has(INTG_NEE);
+  return {name, summary, wishes, weighs, passes, most_s};
 }
 
 }  // namespace
 
+/// One code under flags: `vcm` without merging is `bdpt`, without connections `bpm`.
 std::vector<Integrator> merging_integrators() {
   return {
-      merging("sppm", "stochastic progressive photon mapping", {INTG_NEE, INTG_MIS, INTG_MERGE}),
+      merging("sppm", "stochastic progressive photon mapping", {INTG_NEE, INTG_MIS, INTG_MERGE}, 1),
+      merging("bpm", "bidirectional photon mapping: the merging of vcm alone", {INTG_MERGE}, 0),
       merging("vcm", "vertex connection and merging",
-              {INTG_NEE, INTG_MIS, INTG_SPLAT, INTG_CONNECT, INTG_MERGE})};
+              {INTG_NEE, INTG_MIS, INTG_SPLAT, INTG_CONNECT, INTG_MERGE}, LAYER_LENGTH_MAX)};
 }
 
 }  // namespace pellucid

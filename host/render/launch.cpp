@@ -1,9 +1,12 @@
 // Launches: sizes, and the steps in which films and splats count.
 #include "render/launch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "shared/limits.h"
 
 namespace pellucid {
@@ -49,16 +52,36 @@ double default_radius(const PackedScene& scene, uint light_paths) {
   return share * r / std::sqrt(double(light_paths));
 }
 
-void set_merging(Launch& launch, double first_radius, double alpha, uint grid_bits) {
+double least_radius(const PackedScene& scene) {
+  const F4& reach = scene.info.bounds_reach;
+  const double largest = std::max({reach.x, reach.y, reach.z});
+  return std::max(double(MERGE_RADIUS_ULPS * UNIT_ROUNDOFF) * largest, double(MERGE_RADIUS_MIN));
+}
+
+void check_radius(const PackedScene& scene, double asked) {
+  if (asked >= least_radius(scene)) return;
+  throw UsageError(
+      fmt::format("--radius {}: this scene's coordinates are rounded so much that merging means "
+                  "something only from {:.3g} on; ask for that, or move the scene nearer to the "
+                  "origin",
+                  asked, least_radius(scene)));
+}
+
+void set_merging(Launch& launch, double first_radius, double alpha, double least) {
   constexpr double pi = 3.14159265358979323846;
   // [Knaus11]: as a function of the pass, so that passes may be done in any order.
-  const double radius = first_radius * std::pow(double(launch.iteration) + 1.0, 0.5 * (alpha - 1));
+  const double shrunk = first_radius * std::pow(double(launch.iteration) + 1.0, 0.5 * (alpha - 1));
+  const double radius = std::max(shrunk, least);
   const double eta = pi * radius * radius * launch.light_paths;
   launch.radius = float(radius);
   launch.merge_scale = float(1 / eta);
   launch.mis_vm = float(eta);
   launch.mis_vc = float(1 / eta);
-  launch.cell_size = 2 * launch.radius;
+}
+
+void set_grid(Launch& launch, const F4& origin, uint grid_bits) {
+  launch.grid_x = origin.x, launch.grid_y = origin.y, launch.grid_z = origin.z;
+  launch.cells_per_unit = 1 / (2 * launch.radius);
   launch.grid_bits = grid_bits;
 }
 

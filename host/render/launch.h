@@ -17,8 +17,17 @@ Launch make_launch(const PackedScene& scene, int width, int height, const Window
 /// scene's extent.
 double default_radius(const PackedScene& scene, uint light_paths);
 
+/// Least radius of merging that means something in this scene: passes shrink it no further.
+double least_radius(const PackedScene& scene);
+/// Throws UsageError where --radius asks for less.
+void check_radius(const PackedScene& scene, double asked);
+
 /// What merging needs to know in launch.iteration, which alone decides on the radius.
-void set_merging(Launch& launch, double first_radius, double alpha, uint grid_bits);
+void set_merging(Launch& launch, double first_radius, double alpha, double least);
+
+/// The photon grid of the launch's radius: cells of twice that, so that a search sees 8, counted
+/// from `origin`; a table of 2^grid_bits places.
+void set_grid(Launch& launch, const F4& origin, uint grid_bits);
 
 /// The launch for one tile.
 void set_tile(Launch& launch, const Window& tile);

@@ -58,6 +58,13 @@ std::size_t group_for(const Kernel& kernel, std::size_t asked) {
   return asked ? asked : std::min(default_group, kernel.max_group());
 }
 
+std::size_t group_for_pass(const Pass& pass, const Kernel& kernel, std::size_t asked) {
+  const std::size_t group = group_for(kernel, asked);
+  if (pass.domain == Domain::sides) return std::min<std::size_t>(group, SCAN_GROUP);
+  if (pass.domain == Domain::blocks) return 1;  // few, and each one much work: for all cores
+  return group;
+}
+
 void collect_counters(Device& device, const Buffer& diag, std::vector<Counter>& counters) {
   std::vector<uint> counts(DIAG_COUNT);
   device.read(diag, counts.data(), counts.size() * sizeof(uint));
@@ -104,6 +111,7 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
       merges_(integrator.uses(Bundle::grid)),
       first_radius_(options.radius.value_or(default_radius(scene, options.light_path_count()))),
       radius_alpha_(options.radius_alpha),
+      least_radius_(least_radius(scene)),
       grid_bits_(grid_bits_for(options)),
       buffers_(upload_scene(device_, scene)) {
   for (const auto& [name, size] : memory.buffers)
@@ -122,8 +130,7 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
     state.pass = pass;
     state.kernel = device_.build(pass.name, files.expand("passes/" + pass.name + ".cl", prelude),
                                  options_of(specialisation_));
-    state.group = group_for(state.kernel, options_.group);
-    if (pass.domain == Domain::sides) state.group = std::min<std::size_t>(state.group, SCAN_GROUP);
+    state.group = group_for_pass(pass, state.kernel, options_.group);
     bind(state);
     passes_.push_back(std::move(state));
   }
@@ -155,34 +162,31 @@ void Plan::warm_up() {
   device_.finish();
 }
 
+std::size_t domain_size(Domain domain, const Launch& launch, std::size_t group) {
+  switch (domain) {
+    case Domain::tile:
+      return std::size_t(launch.tile_width) * launch.tile_height;
+    case Domain::slice:
+      return launch.slice_count;
+    case Domain::light_paths:
+      return launch.path_count;
+    case Domain::sub_paths:
+      return std::size_t(launch.path_count) + launch.slice_count;
+    case Domain::photons:
+      return std::max<std::size_t>(launch.photon_count, std::size_t{1} << launch.grid_bits);
+    case Domain::blocks:
+      return SORT_BLOCKS;
+    case Domain::sides:
+      return 2 * group;
+  }
+  throw InternalError("unknown domain");
+}
+
 void Plan::launch(PassState& state, Launch launch) {
   launch.digit = state.pass.digit;
-  std::size_t domain = 0;
-  switch (state.pass.domain) {
-    case Domain::tile:
-      domain = std::size_t(launch.tile_width) * launch.tile_height;
-      break;
-    case Domain::slice:
-      domain = launch.slice_count;
-      break;
-    case Domain::light_paths:
-      domain = launch.path_count;
-      break;
-    case Domain::sub_paths:
-      domain = std::size_t(launch.path_count) + launch.slice_count;
-      break;
-    case Domain::photons:
-      domain = std::max<std::size_t>(launch.photon_count, std::size_t{1} << launch.grid_bits);
-      break;
-    case Domain::blocks:
-      domain = SORT_BLOCKS;
-      break;
-    case Domain::sides:
-      domain = 2 * state.group;
-      break;
-  }
   state.kernel.set_bytes(state.launch_index, &launch, sizeof launch);
-  device_.launch(state.kernel, domain, state.group, state.time);
+  device_.launch(state.kernel, domain_size(state.pass.domain, launch, state.group), state.group,
+                 state.time);
 }
 
 PassState& Plan::pass_named(const std::string& name) {
@@ -197,7 +201,8 @@ void Plan::enqueue(Launch launch) {
   if (sides_.empty())
     run_whole(launch);
   else if (merges_) {
-    set_merging(launch, first_radius_, radius_alpha_, grid_bits_);
+    set_merging(launch, first_radius_, radius_alpha_, least_radius_);
+    set_grid(launch, scene_info_.center_radius, grid_bits_);
     run_merging(launch);
   } else
     run_slices(launch);

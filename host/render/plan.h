@@ -32,6 +32,8 @@ void collect_counters(Device& device, const Buffer& diag, std::vector<Counter>& 
 /// The group asked for, or the default within what the kernel can: a large kernel may allow less
 /// than its device does. Throws DeviceError.
 std::size_t group_for(const Kernel& kernel, std::size_t asked);
+/// The same for a kernel of a pass, within what its domain can have.
+std::size_t group_for_pass(const Pass& pass, const Kernel& kernel, std::size_t asked);
 
 struct PassState {
   Pass pass;
@@ -43,6 +45,9 @@ struct PassState {
 
 /// Parameter names of a pass in order, as its kernel declares them.
 std::vector<std::string> parameter_names(const Pass& pass);
+
+/// Work-items that the launch of a pass is about, in groups of `group`.
+std::size_t domain_size(Domain domain, const Launch& launch, std::size_t group);
 
 /// What the kernels of this scene, method and device are specialised for.
 Specialisation specialise(const PackedScene& scene, const Integrator& integrator,
@@ -114,7 +119,7 @@ class Plan {
   std::uint64_t memory_limit_;
   uint slice_rows_ = 1;  ///< fewer where vertices would exceed memory
   bool merges_;          ///< needs the vertices of all light paths at once
-  double first_radius_, radius_alpha_;
+  double first_radius_, radius_alpha_, least_radius_;
   uint grid_bits_;
   std::vector<Side> sides_;  ///< light, eye; empty for methods that store none
   std::map<std::string, Buffer> buffers_;

@@ -5,26 +5,23 @@
 #include "passes/bundles.h"
 #include "transport/merge.h"
 
-/// Sum over the photons of one cell.
-INLINE real3 merge_cell(PRIVATE const SceneData* scene, Launch launch,
-                        __global const F4* photon_positions, __global const Photon* photons,
-                        __global const uint* grid_cells, GridCell cell,
+/// Sum over the photons around one vertex.
+INLINE real3 merge_around(PRIVATE const SceneData* scene, Launch launch,
+                          __global const F4* photon_positions, __global const Photon* photons,
+                          __global const uint* grid_cells,
 #if INTG_LAYERS
-                        LayerSink sink,
+                          LayerSink sink,
 #endif
-                        PRIVATE const EndVertex* eye) {
+                          PRIVATE const EndVertex* eye) {
   real3 sum = (float3)(0.0f);
-  uint bucket = grid_bucket(launch, cell);
-  real3 p = eye->v.surface.p;
-  real radius2 = launch.radius * launch.radius;
-  for (uint i = grid_cells[2 * bucket]; i < grid_cells[2 * bucket + 1u]; ++i) {
-    real3 at = load3(photon_positions[i]), d = at - p;
-    // Another cell may have the same bucket: a photon is met in its own alone.
-    if (dot3(d, d) > radius2 || !grid_same(grid_cell(scene, launch, at), cell)) continue;
+  GridSearch search = grid_search(launch, grid_cells, eye->v.surface.p);
+  for (;;) {
+    uint i = grid_next(launch, photon_positions, grid_cells, &search);
+    if (i == NONE) return sum;
     Photon photon = photons[i];
     uint depth = eye->depth + photon.depth;
     if (depth > launch.max_depth) continue;
-#if !INTG_CONNECT
+#if INTG_GATHER
     if (photon.depth == 1u) continue;  // light samples have brought it
 #endif
     Merge merge;
@@ -34,7 +31,6 @@ INLINE real3 merge_cell(PRIVATE const SceneData* scene, Launch launch,
     layer_merge(sink, merge.value, merge.weight, eye->depth, depth);
 #endif
   }
-  return sum;
 }
 
 __kernel void merge(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARAMS GRID_PARAMS
@@ -50,17 +46,11 @@ __kernel void merge(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARA
   for (uint i = eye_first[index]; i < eye_first[index + 1u]; ++i) {
     __global const StoredVertex* eye_at = (__global const StoredVertex*)eye_vertices;
     EndVertex eye = vertex_unpack(&scene_data, eye_at[eye_order[i]], 0);
-    GridRange range = grid_range(&scene_data, launch, eye.v.surface.p);
-    for (int z = range.low.z; z <= range.high.z; ++z)
-      for (int y = range.low.y; y <= range.high.y; ++y)
-        for (int x = range.low.x; x <= range.high.x; ++x) {
-          GridCell cell = {x, y, z};
-          sum += merge_cell(&scene_data, launch, photon_positions, photons, grid_cells, cell,
+    sum += merge_around(&scene_data, launch, photon_positions, photons, grid_cells,
 #if INTG_LAYERS
-                            layer_sink(layers, diag, launch, pixel),
+                        layer_sink(layers, diag, launch, pixel),
 #endif
-                            &eye);
-        }
+                        &eye);
   }
   samples[pixel] += (float4)(sum, 0.0f);
 }

@@ -196,13 +196,15 @@ typedef struct Launch {
   float radius;       // of merging, world units
   float merge_scale;  // 1 / (pi radius^2 light paths): from power to radiance
   float mis_vm;       // [Georgiev12 eq. 11] eta of merging over connecting: pi radius^2 light paths
-  float mis_vc;       // its inverse; either is 0 where its strategies are not used
-  float cell_size;    // of the photon grid, at least 2 radius
-  uint grid_bits;     // it has 2^this cells
-  uint photon_count;  // light vertices in it
-  uint digit;         // of the sort, from 0
+  float mis_vc;       // its inverse
+  float grid_x, grid_y, grid_z;  // origin of the photon grid: amid the scene
+  float cells_per_unit;          // of length, along an axis
+  uint grid_bits;                // its table has 2^this places
+  uint photon_count;             // light vertices in it
+  uint digit;                    // of the sort, from 0
+  uint pad1;
 } Launch;
-LAYOUT_CHECK(Launch, 160);
+LAYOUT_CHECK(Launch, 176);
 
 /// A vertex where a sub-path ends and others may connect. Written by light_trace and camera_trace.
 typedef struct PathVertex {
@@ -236,7 +238,7 @@ LAYOUT_CHECK(CompactVertex, 48);
 /// A light vertex as merging needs it, beside its position. Written by grid_ranges.
 typedef struct Photon {
   F4 wi_dVCM;   // unit, to where it came from
-  F4 beta_dVM;  // power [W]
+  F4 beta_dVC;  // power [W]
   float ng_x, ng_y, ng_z;
   uint depth;  // segments from the light
 } Photon;

@@ -66,10 +66,18 @@
 #define GRID_BITS_MIN 6u
 #define GRID_BITS_MAX 20u
 
-/// Photons farther than the radius by rounding are looked for: 2^-20 of it, and 4 roundoffs of the
-/// coordinates.
-#define MERGE_REACH_SCALE 1.00000095367431640625f
-#define MERGE_REACH_ULPS 4.0f
+/// How far photons are looked for, over the radius: 1 + 2^-20. Rounding lets photons count that are
+/// 4 roundoffs farther away than it, and may shorten this by one (transport/grid.h).
+#define MERGE_REACH 1.00000095367431640625f
+
+/// Least radius of merging, in unit roundoffs of the scene's largest coordinate: in smaller discs
+/// the error of points themselves (POINT_ERROR_ULPS) would decide what is found. Numbers of cells
+/// then stay below 2^20.
+#define MERGE_RADIUS_ULPS 16.0f
+/// Bounds of it in any unit of length: squares of the radius are normal numbers, and so are the
+/// areas of 2^32 discs.
+#define MERGE_RADIUS_MIN 1.08420217248550443e-19f /* 2^-63 */
+#define MERGE_RADIUS_MAX 70368744177664.0f        /* 2^46 */
 
 /// Photons merge where their surface faces the same way, within 60 degrees: others lie round a
 /// corner or on the back of a thin wall.

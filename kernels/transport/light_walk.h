@@ -19,7 +19,7 @@ INLINE LightWalk light_walk_from(EmitSample start) {
   w.walk = walk_start(w.start.ray, w.start.beta);
   w.walk.p_prev = w.start.p;
   w.depth = 0u;
-#if INTG_CONNECT
+#if INTG_PARTIALS
   if (!w.start.delta && w.start.pdf > REAL(0.0))
     w.walk.partials = partials_start(REAL(0.0), w.start.cos_light / w.start.pdf);
 #endif
@@ -31,7 +31,7 @@ INLINE LightWalk light_walk_start(PRIVATE const SceneData* scene, Rng rng) {
       light_emit(scene, rng_words(rng, DIM_EMIT_POINT), rng4(rng, DIM_EMIT_DIRECTION)));
 }
 
-#if INTG_CONNECT
+#if INTG_PARTIALS
 /// The walk has come to the vertex, the last of `depth` segments.
 INLINE void light_walk_arrive(PRIVATE const SceneData* scene, PRIVATE LightWalk* w,
                               PRIVATE const Vertex* v) {
@@ -56,7 +56,7 @@ INLINE int light_walk_next(PRIVATE const SceneData* scene, PRIVATE LightWalk* w,
   if (hit.prim == NONE) return 0;
   *v = vertex_at(scene, surface_at(scene, w->walk.ray, hit), -w->walk.ray.d, 1);
   if (v->black) return 0;
-#if INTG_CONNECT
+#if INTG_PARTIALS
   light_walk_arrive(scene, w, v);
 #endif
   return 1;

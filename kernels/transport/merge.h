@@ -26,13 +26,12 @@ INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE c
   real cos_g = r_abs(dot3(ng, wi));
   if (!(cos_g > REAL(0.0))) return 0;
   real scale = cos_wi / cos_g * (real)launch.merge_scale;
-  merge->value = eye->beta * e.f * load3(photon.beta_dVM) * scale;
+  merge->value = eye->beta * e.f * load3(photon.beta_dVC) * scale;
   merge->weight = REAL(1.0);
-#if INTG_CONNECT && INTG_MERGE
+#if INTG_PARTIALS
   real survive = (real)eye->v.material.survive;
   real reverse = vertex_pdf_reverse(scene, &eye->v, wi) * survive;
-  Partials light = partials_start((real)photon.wi_dVCM.w, REAL(0.0));
-  light.dVM = (real)photon.beta_dVM.w;
+  Partials light = partials_start((real)photon.wi_dVCM.w, (real)photon.beta_dVC.w);
   real on_light = partials_merge(launch, light, e.pdf_w * survive);
   real on_eye = partials_merge(launch, eye->partials, reverse);
   merge->weight = partial_weight(launch.mis, on_light, on_eye);

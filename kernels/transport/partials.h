@@ -9,6 +9,10 @@
 #include "core/real.h"
 #include "shared/layout.h"
 
+/// Every strategy is weighed against all others: the walks carry what that takes. `sppm` merges
+/// where it goes no further, so that its strategies never meet.
+#define INTG_PARTIALS (INTG_CONNECT || (INTG_MERGE && !INTG_NEE))
+
 /// What a sub-path knows of the strategies that would have drawn its vertices from the other end.
 /// dVC is a sum over all its vertices, so it may leave the range of float on the way and come back.
 /// Merges need no third quantity: where connections are weighed against them, too, [Georgiev12]'s
@@ -69,8 +73,10 @@ INLINE real partial_weight(uint heuristic, real light, real eye) {
 
 /// Of the strategies on one side, those that end at its last vertex: a connection to it, a merge.
 INLINE real partials_here(Launch launch, Partials q) {
-#if INTG_MERGE
+#if INTG_CONNECT && INTG_MERGE
   return partial_sum(launch.mis, q.dVCM, (real)launch.mis_vm);
+#elif INTG_MERGE
+  return (real)launch.mis_vm;
 #else
   return q.dVCM;
 #endif
@@ -114,7 +120,10 @@ INLINE real partials_end(Launch launch, Partials q, real pdf_a, real reverse) {
 #if INTG_MERGE
 /// What they weigh where both sides merge in that vertex.
 INLINE real partials_merge(Launch launch, Partials q, real reverse) {
-  real sum = partial_sum(launch.mis, partials_dVC(q) * reverse, q.dVCM);
+  real sum = partials_dVC(q) * reverse;
+#if INTG_CONNECT
+  sum = partial_sum(launch.mis, sum, q.dVCM);
+#endif
   return sum * (real)launch.mis_vc;
 }
 #endif

@@ -1,7 +1,7 @@
-// Paths from the camera: `naive`, `nee`, `path`, `reference` and the eye's side of `light` and
-// `bdpt` as one walk, whose parts are compiled in by INTG_NEE (light samples), INTG_MIS (weigh them
-// against chance), INTG_UNIFORM, INTG_CONNECT (weigh them against all strategies, store vertices)
-// and INTG_SEEN.
+// Paths from the camera: `naive`, `nee`, `path`, `reference` and the eye's side of all methods that
+// walk from both ends, as one walk. Its parts are compiled in by INTG_NEE (light samples), INTG_MIS
+// (weigh them against chance), INTG_UNIFORM, INTG_VERTICES (keep vertices), INTG_PARTIALS (weigh
+// against all strategies), INTG_SEEN and INTG_GATHER.
 #ifndef PELLUCID_TRANSPORT_PATH_H
 #define PELLUCID_TRANSPORT_PATH_H
 
@@ -16,11 +16,14 @@
 /// cosine at the light.
 INLINE real chance_weight(Launch launch, PRIVATE const Walk* walk, uint depth, real pdf_light,
                           real emit) {
-#if INTG_CONNECT
+#if INTG_PARTIALS
   // Quantities from before the arrival: its distance and cosine cancel against the light's side.
   if (depth == 1u) return REAL(1.0);
-  return partial_weight(launch.mis, pdf_light * walk->partials.dVCM,
-                        emit * partials_dVC(walk->partials));
+  real by_nee = REAL(0.0);
+#if INTG_NEE
+  by_nee = pdf_light * walk->partials.dVCM;
+#endif
+  return partial_weight(launch.mis, by_nee, emit * partials_dVC(walk->partials));
 #elif INTG_MIS
   return walk->pdf_w == REAL(0.0) ? REAL(1.0) : mis_weight(launch.mis, walk->pdf_w, pdf_light, 0);
 #elif INTG_NEE
@@ -57,11 +60,11 @@ INLINE void walk_emission(PRIVATE const SceneData* scene, Launch launch, PRIVATE
   real3 emitted = light_emitted(scene, s, -walk->ray.d);
   if (is_black(emitted)) return;
   real pdf_light = REAL(0.0), emit = REAL(0.0);
-#if INTG_MIS || INTG_CONNECT
+#if INTG_MIS
   if (walk->pdf_w > REAL(0.0))
     pdf_light = light_pdf_surface(scene, s->light, s->p, s->ng, walk->p_prev, walk->ray.d);
 #endif
-#if INTG_CONNECT
+#if INTG_PARTIALS
   emit = light_pdf_emit_surface(scene, s->light, s->flags);
 #endif
   walk_gather(walk, walk->beta * emitted, chance_weight(launch, walk, depth, pdf_light, emit), 0u,
@@ -117,13 +120,13 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
 /// Keeps the vertex for connections and merging, as far as path length allows any.
 INLINE void walk_keep(PRIVATE VertexStore* store, Launch launch, uint depth,
                       PRIVATE const Vertex* v, PRIVATE Walk* walk) {
-#if INTG_CONNECT
+#if INTG_PARTIALS
   walk_arrive(v, walk);
 #endif
 #if INTG_GATHER
   if (vertex_gathers(v) && depth + 1u <= launch.max_depth)
     vertex_store(store, v, walk->beta, partials_start(REAL(0.0), REAL(0.0)), depth);
-#elif INTG_CONNECT
+#elif INTG_VERTICES
   if (!bsdf_is_delta(v->material) && depth + (INTG_MERGE ? 1u : 2u) <= launch.max_depth)
     vertex_store(store, v, walk->beta, walk->partials, depth);
 #endif
@@ -149,7 +152,7 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
 #endif
                            PRIVATE VertexStore* store, PRIVATE uint* rays) {
   Walk walk = walk_start(camera_ray, REAL3(1.0f, 1.0f, 1.0f));
-#if INTG_CONNECT
+#if INTG_PARTIALS
   walk.partials = partials_start((real)launch.light_paths / pdf_camera, REAL(0.0));
 #endif
 #if INTG_LAYERS

@@ -131,16 +131,15 @@ INLINE Photon photon_of(GLOBAL const StoredVertex* s) {
   Photon photon;
 #if INTG_MERGE
 #if INTG_COMPACT
-  photon.wi_dVCM = to_f4(octahedral_unpack(s->wo), (real)float_from_bits(s->dVCM & 0xffff0000u));
-  photon.beta_dVM = to_f4(rgbe_unpack(s->beta), (real)float_from_bits(s->dVCM << 16));
+  photon.wi_dVCM = to_f4(octahedral_unpack(s->wo), (real)float_from_bits(s->dVCM & 0xffffff00u));
+  photon.beta_dVC = to_f4(rgbe_unpack(s->beta), (real)float_from_bits(s->dVC & 0xffffff00u));
   real3 ng = octahedral_unpack(s->ng);
-  photon.depth = s->dVC & 0xffffu;
+  photon.depth = (s->dVCM & 0xffu) | ((s->dVC & 0xffu) << 8);
 #else
   photon.wi_dVCM = s->wo_dVCM;
-  photon.beta_dVM = s->beta_dVC;
-  photon.beta_dVM.w = s->dVM;
+  photon.beta_dVC = s->beta_dVC;
   real3 ng = load3(s->ng_u);
-  photon.depth = s->flags_depth >> 8;
+  photon.depth = s->depth;
 #endif
   photon.ng_x = (float)ng.x;
   photon.ng_y = (float)ng.y;

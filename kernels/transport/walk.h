@@ -14,7 +14,7 @@
 #define INTG_VERTICES (INTG_CONNECT || INTG_MERGE)
 /// `sppm`: the eye path gathers at its first vertex that scatters widely, and goes on from there
 /// through delta lobes alone.
-#define INTG_GATHER (INTG_MERGE && !INTG_CONNECT)
+#define INTG_GATHER (INTG_MERGE && !INTG_PARTIALS)
 
 typedef struct Walk {
   Ray ray;
@@ -50,7 +50,7 @@ INLINE uint depth_limit(Launch launch) {
   return launch.max_depth < DEPTH_HARD_LIMIT ? launch.max_depth : DEPTH_HARD_LIMIT;
 }
 
-#if INTG_CONNECT
+#if INTG_PARTIALS
 /// The walk has come to the vertex.
 INLINE void walk_arrive(PRIVATE const Vertex* v, PRIVATE Walk* walk) {
   real3 d = v->surface.p - walk->p_prev;
@@ -91,7 +91,7 @@ INLINE int walk_scatter(PRIVATE const SceneData* scene, Launch launch, Rng rng, 
   if (is_black(s.weight)) return 0;
   walk->beta *= s.weight * (REAL(1.0) / survive);
   walk->pdf_w = s.delta ? REAL(0.0) : s.pdf_w * survive;
-#if INTG_CONNECT
+#if INTG_PARTIALS
   walk_leave(scene, launch, v, s, walk);
 #endif
   walk->p_prev = v->surface.p;

@@ -78,6 +78,16 @@ with tempfile.TemporaryDirectory() as folder:
         check(abs(cell["efficiency"] * cell["relmse"] * cell["seconds"] - 1) < 1e-6, "efficiency", cell)
         check(abs(cell["gain"] - cell["efficiency"] / cells[0]["efficiency"]) < 1e-6 * cell["gain"],
               "gain is over path", cell)
+    done = subprocess.run([PELLUCID, "bench", "--only", "sort", "--repeats", "1", "--json", "-"],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=500)
+    check(done.returncode == 0, "exit code of the sort workload", done.stderr)
+    for cell in json.loads(done.stdout)["sorts"]:
+        for sort in ("stable", "radix"):
+            host = cell[sort + "_sort_mphotons_per_s"]
+            check(abs(cell["build_mphotons_per_s"] / host / cell[f"ratio_{sort}_sort"] - 1) < 1e-6,
+                  "ratios are of builds over sorts", cell)
+        check(set(cell["pass_seconds"]) == {"grid_keys", "grid_count", "grid_scan", "grid_scatter",
+                                            "grid_ranges"}, "all passes have times", cell)
     done = subprocess.run([PELLUCID, "bench", "--only", "rays", "--scene", "furnace"],
                           stderr=subprocess.PIPE, text=True)
     check(done.returncode == 2 and "--only render" in done.stderr, "--scene", done.stderr)

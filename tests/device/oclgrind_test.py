@@ -16,7 +16,8 @@ EVERYTHING = str(pathlib.Path(__file__).parents[1] / "render/scenes/everything.j
 # Method and scene: together they hold every pass and most lobes and lights.
 RUNS = [("path", "gallery"), ("nee", "four-balls-sun"), ("reference", "four-balls-background"),
         ("naive", "cornell-box"), ("light", "cornell-box"), ("bdpt", "four-balls-background"),
-        ("bdpt", "textures", "--vertices", "compact", "--aov", "length,tech,light-vertices")]
+        ("bdpt", "textures", "--vertices", "compact", "--aov", "length,tech,light-vertices"),
+        ("sppm", "four-balls-ceiling", "--aov", "tech"), ("vcm", "textures", "--vertices", "compact")]
 failures = []
 
 
@@ -45,6 +46,7 @@ with tempfile.TemporaryDirectory() as folder:
               [PELLUCID, "render", scene, "--features", "all", "--spp", "1", "--size", "8x8",
                "--max-depth", "4", "--device", "Oclgrind", "-o", f"{folder}/all.exr"])
 check("layouts", [DEVICE_TESTS, "--gtest_filter=DeviceTest.LayoutsAgree"])
+check("photon grid", [DEVICE_TESTS, "--gtest_filter=GridTest.FewPhotons"])
 check("splats", [DEVICE_TESTS, "--gtest_filter=SplatTest.WhatCannotBeAddedIsCounted"])
-print(f"{len(RUNS) + 4} runs, {len(failures)} with findings")
+print(f"{len(RUNS) + 5} runs, {len(failures)} with findings")
 sys.exit(bool(failures))
