@@ -8,11 +8,11 @@
 namespace pellucid {
 namespace {
 
-Launch pass(uint number, double first_radius, double alpha) {
+Launch pass(uint number, double first_radius, double alpha, double least = 0) {
   Launch launch{};
   launch.iteration = number;
   launch.light_paths = 1000;
-  set_merging(launch, first_radius, alpha, 8);
+  set_merging(launch, first_radius, alpha, least);
   return launch;
 }
 
@@ -35,7 +35,7 @@ TEST(Merging, weights_and_power_count_the_same_photons) {
     const double r = launch.radius, eta = 3.14159265358979323846 * r * r * 1000;
     EXPECT_NEAR(launch.mis_vm / eta, 1, 3e-7);  // roundings of three floats
     EXPECT_NEAR(launch.mis_vc * eta, 1, 3e-7);
-    EXPECT_GE(launch.cell_size, 2 * launch.radius) << "or a disc would reach into a third cell";
+    EXPECT_NEAR(launch.merge_scale * eta, 1, 3e-7);
   }
 }
 
@@ -45,8 +45,14 @@ TEST(Merging, radius_scales_exactly) {
     const Launch a = pass(17, 0.1, 0.75), b = pass(17, std::ldexp(0.1, k), 0.75);
     EXPECT_EQ(b.radius, std::ldexp(a.radius, k));
     EXPECT_EQ(b.mis_vm, std::ldexp(a.mis_vm, 2 * k));
+    EXPECT_EQ(b.merge_scale, std::ldexp(a.merge_scale, -2 * k));
     EXPECT_EQ(b.mis_vc, std::ldexp(a.mis_vc, -2 * k));
   }
+}
+
+TEST(Merging, radius_stops_where_rounding_begins) {
+  EXPECT_EQ(pass(999, 0.03, 0.5, 0.01).radius, 0.01f);
+  EXPECT_GT(pass(9, 0.03, 0.5, 0.01).radius, 0.01f);
 }
 
 }  // namespace
