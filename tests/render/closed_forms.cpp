@@ -57,6 +57,25 @@ double pane_transmission(double degrees, double n) {
   return (1 - r) / (1 + r);
 }
 
+double lands_below_pane(double sine, double D, double t, double n) {
+  return (D - t) * sine / std::sqrt(1 - sine * sine) + t * sine / std::sqrt(n * n - sine * sine);
+}
+
+double irradiance_below_pane(double r, double D, double t, double n) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double mid = 0.5 * (low + high);
+    (lands_below_pane(mid, D, t, n) < r ? low : high) = mid;
+  }
+  const double cosine = std::sqrt(1 - low * low), inner = n * n - low * low;
+  const double per_angle =  // dr / da
+      cosine * ((D - t) / (cosine * cosine * cosine) + t * n * n / (inner * std::sqrt(inner)));
+  // sin a / r tends to the inverse of dr / d sin a on the axis.
+  const double sine_over_r = r > 1e-9 ? low / r : 1 / ((D - t) + t / n);
+  const double passed = 1 - fresnel(cosine, 1, n, 0);
+  return passed * passed * sine_over_r / per_angle;
+}
+
 double ggx_reflected(double cos_o, double alpha, double near, double far, double k) {
   const glm::dvec3 o = direction(cos_o, 0);
   const auto integrand = [&](double cos_i, double phi) {

@@ -18,6 +18,12 @@ double fresnel(double cos_i, double from, double eta, double k);
 /// A lossless pane of index n with all echoes: (1 - R) / (1 + R).
 double pane_transmission(double degrees, double n);
 
+/// Where light of angle a, sine given, lands under a pane of thickness t and index n, from a point
+/// D above the floor: (D - t) tan a + t tan a' from its foot, by sin a = n sin a'.
+double lands_below_pane(double sine, double D, double t, double n);
+/// Irradiance there, at `r` from the foot of a point light of intensity 1.
+double irradiance_below_pane(double r, double D, double t, double n);
+
 /// What a GGX interface of width alpha shows under a uniform sky of radiance 1 on both sides, seen
 /// from index `near` at cosine `cos_o` into index `far` (k: its extinction): single scattering with
 /// correlated Smith masking, by quadrature [Walter07; Heitz14]. Transmitted radiance scales by

@@ -53,6 +53,11 @@ double student_t(double alpha, double degrees) {
   return high;
 }
 
+Estimate estimate(const Sample& sample) {
+  const MeanVariance m = mean_variance(sample);
+  return {m.mean, m.variance};
+}
+
 std::string welch(const Sample& a, const Sample& b, double alpha, double within) {
   const MeanVariance ma = mean_variance(a), mb = mean_variance(b);
   const double variance = ma.variance + mb.variance;

@@ -16,6 +16,9 @@ double student_t(double alpha, double degrees);
 /// One number per run, independent of each other.
 using Sample = std::vector<double>;
 
+/// Mean of the runs, and the variance that their spread gives it.
+Estimate estimate(const Sample& sample);
+
 /// Welch's test and the power guard: "" if the means of a and b do not differ at level `alpha` and
 /// the interval of their difference lies inside +-`within`; else the reason.
 std::string welch(const Sample& a, const Sample& b, double alpha, double within);

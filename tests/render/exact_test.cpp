@@ -9,7 +9,7 @@
 namespace pellucid::test {
 namespace {
 
-const char* const methods[] = {"naive", "nee", "path", "reference", "light", "bdpt"};
+const char* const methods[] = {"naive", "nee", "path", "reference", "light", "bdpt", "sppm", "vcm"};
 constexpr Sampling short_run{24, 7, {}, MIS_BALANCE};
 
 const Scene& everything() {

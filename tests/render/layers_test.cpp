@@ -16,7 +16,7 @@ namespace {
 
 constexpr int side = 24;
 constexpr uint longest = 4;
-const char* const methods[] = {"naive", "nee", "path", "light", "bdpt"};
+const char* const methods[] = {"naive", "nee", "path", "light", "bdpt", "sppm", "vcm"};
 constexpr PassRange all_passes{0, 37};  // neither a power of two nor whole blocks
 
 const PackedScene& everything() {
@@ -84,12 +84,17 @@ TEST(LayersOf, add_up_to_the_picture) {
         std::uint64_t lengths = 0, strategies = 0;
         for (uint depth = 1; depth <= longest + 1; ++depth)
           lengths += sum_at(film, i, layer_of_length(set, depth), c);
+        const bool merges = layer_kinds(set) & LAYERS_MERGE;
+        for (uint k = 1; merges && k <= longest; ++k)
+          strategies += sum_at(film, i, layer_of_merge(set, k), c);
         for (uint depth = 1; depth <= longest; ++depth) {
           std::uint64_t of_depth = 0;
           for (uint s = 0; s < layer_strategies(set, depth); ++s)
             of_depth += sum_at(film, i, layer_of_weighted(set, s, depth), c);
-          ASSERT_EQ(of_depth, sum_at(film, i, layer_of_length(set, depth), c))
-              << name << ": the strategies of a length are all of it, to the last step";
+          if (!merges) {  // which are of any length
+            ASSERT_EQ(of_depth, sum_at(film, i, layer_of_length(set, depth), c))
+                << name << ": the strategies of a length are all of it, to the last step";
+          }
           strategies += of_depth;
         }
         strategies += sum_at(film, i, layer_of_weighted(set, 0, longest + 1), c);
@@ -157,6 +162,29 @@ TEST(LayersOf, bdpt_has_the_strategies_of_other_methods) {
   }
 }
 
+// `vcm` walks as `bdpt` does; `sppm` merges at the first vertex of an eye path that is not followed
+// by delta lobes alone.
+TEST(LayersOf, vcm_has_the_strategies_of_bdpt) {
+  const Film bdpt = render(method_of("bdpt"), options_for(all_passes));
+  const Film vcm = render(method_of("vcm"), options_for(all_passes));
+  const uint of_bdpt = bdpt.layers.set, of_vcm = vcm.layers.set;
+  for (uint depth = 1; depth <= longest; ++depth)
+    for (uint s = 0; s < layer_strategies(of_bdpt, depth); ++s) {
+      EXPECT_TRUE(same_layer(vcm, layer_of_unweighted(of_vcm, s, depth), bdpt,
+                             layer_of_unweighted(of_bdpt, s, depth)))
+          << s << ", " << depth;
+      EXPECT_LE(total(vcm, layer_of_weighted(of_vcm, s, depth)),
+                total(bdpt, layer_of_weighted(of_bdpt, s, depth)))
+          << s << ", " << depth << ": merges leave less to it";
+    }
+  for (uint k = 1; k <= longest; ++k) {
+    const double weighted = total(vcm, layer_of_merge(of_vcm, k)),
+                 alone = total(vcm, layer_of_merge_unweighted(of_vcm, k));
+    EXPECT_GT(weighted, 0.0) << k;
+    EXPECT_LT(weighted, alone) << k;
+  }
+}
+
 // All strategies that can find all paths of a length have the same mean (numerics.md 7, the
 // unweighted pyramid). Seeds give the spread.
 TEST(LayersOf, unweighted_strategies_of_a_length_agree) {
@@ -216,7 +244,7 @@ TEST_P(LayersSplit, any_way) {
     EXPECT_TRUE(same_film(whole, render(method, other))) << name << ", groups of " << group;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Of, LayersSplit, ::testing::Values("path", "bdpt"));
+INSTANTIATE_TEST_SUITE_P(Of, LayersSplit, ::testing::Values("path", "bdpt", "vcm"));
 
 TEST(LayersOf, a_crop_is_a_part_of_the_whole) {
   const Integrator method = method_of("path");

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "closed_form_cases.h"
 #include "closed_forms.h"
 #include "equality.h"
 #include "render_harness.h"
@@ -56,12 +57,6 @@ struct Block {
 
   void add(const Picture& p) { sample.push_back(p.block_mean(0, x0, y0, size)); }
 };
-
-Estimate estimate(const Sample& s) {
-  Moments m;
-  for (double x : s) m.add(x);
-  return {m.mean, m.standard_error() * m.standard_error()};
-}
 
 /// Blocks as runs of `spp` samples give them; lengths up to `depth`, without those up to `without`
 /// (drawn by the same numbers).
@@ -132,53 +127,6 @@ TEST(Light, corners_are_as_bright_as_the_centre) {
     EXPECT_EQ(judge(estimate(corners), value, 1e-5), "") << "corners, fov " << view.fov;
     EXPECT_EQ(judge(estimate(blocks[4].sample), value, 1e-5), "") << "centre, fov " << view.fov;
   }
-}
-
-/// Irradiance under a glass pane of thickness t and index n at `r` from the foot of a point light
-/// of intensity 1, D above the floor: light of angle a to the axis lands at (D - t) tan a + t tan
-/// a', by sin a = n sin a', in rings.
-double irradiance_below_pane(double r, double D, double t, double n) {
-  const auto lands = [&](double sine) {
-    return (D - t) * sine / std::sqrt(1 - sine * sine) + t * sine / std::sqrt(n * n - sine * sine);
-  };
-  double low = 0, high = 1;
-  for (int i = 0; i < 60; ++i) {
-    const double mid = 0.5 * (low + high);
-    (lands(mid) < r ? low : high) = mid;
-  }
-  const double cosine = std::sqrt(1 - low * low), inner = n * n - low * low;
-  const double per_angle =  // dr / da
-      cosine * ((D - t) / (cosine * cosine * cosine) + t * n * n / (inner * std::sqrt(inner)));
-  // sin a / r tends to the inverse of dr / d sin a on the axis.
-  const double sine_over_r = r > 1e-9 ? low / r : 1 / ((D - t) + t / n);
-  const double passed = 1 - fresnel(cosine, 1, n, 0);
-  return passed * passed * sine_over_r / per_angle;
-}
-
-/// A floor seen from below a pane, which a point light shines through.
-Scene pane_scene() {
-  Scene scene = scene_named("slab");
-  scene.materials.push_back(Material{});
-  scene.materials.back().reflectance = Rgb(0.5);
-  const auto paper = uint(scene.materials.size() - 1);
-  for (Shape& shape : scene.shapes) {
-    Mesh& mesh = std::get<Mesh>(shape.geometry);
-    if (shape.name == "pane") {  // 40 x 40 x 0.125 about z = -0.0625: now from z = 1 to 1.5
-      for (glm::vec3& p : mesh.positions) p.z = p.z < -0.1f ? 1.0f : 1.5f;
-    } else {
-      shape.emission.reset();
-      shape.material = paper;
-      for (glm::vec3& p : mesh.positions) p = {p.x * 0.04f, p.y * 0.04f, 0};  // 4 x 4
-    }
-  }
-  PointLight point;
-  point.position = {0, 0, 2};
-  point.intensity = Rgb(1.0);
-  scene.lights = {point};
-  scene.camera.origin = {0, 0, 0.75};
-  scene.camera.forward = {0, 0, -1};
-  scene.camera.fov = 90;
-  return scene;
 }
 
 // CF10. Views of a parallel plane are affine, so blocks of pixels average over it evenly.

@@ -44,6 +44,8 @@ RenderOptions render_options(const Build& build) {
   o.width = build.width;
   o.height = build.height;
   if (build.light_paths) o.light_paths = build.light_paths;
+  if (build.radius > 0) o.radius = build.radius;
+  o.radius_alpha = build.radius_alpha;
   o.plan = plan_options(build);
   return o;
 }

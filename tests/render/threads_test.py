@@ -27,7 +27,7 @@ def main():
     pellucid = os.path.abspath(sys.argv[1])
     different = 0
     with tempfile.TemporaryDirectory() as folder:
-        for method in ("naive", "nee", "path", "reference", "light", "bdpt"):
+        for method in ("naive", "nee", "path", "reference", "light", "bdpt", "sppm", "vcm"):
             images = [render(pellucid, method, threads, folder) for threads in (1, 2)]
             if images[0] != images[1]:
                 different += 1

@@ -24,9 +24,11 @@ const Scene& everything() {
   return scene;
 }
 
-Build bdpt() {
+const char* const methods[] = {"bdpt", "sppm", "vcm"};
+
+Build build_of(const char* method = "bdpt") {
   Build b;
-  b.method = "bdpt";
+  b.method = method;
   b.width = b.height = side;
   b.filter = PixelFilter::gaussian;
   return b;
@@ -51,36 +53,41 @@ std::uint64_t bytes_of_all(const Plan& plan) {
 }
 
 TEST(Vertices, room_at_first_does_not_matter) {
-  for (bool compact : {false, true}) {
-    Build b = bdpt();
-    b.compact_vertices = compact;
-    b.vertices_per_path = 64;  // enough
-    const Film film = film_of(b);
-    for (double room : {1.0, 0.01}) {
-      b.vertices_per_path = room;
-      Renderer renderer(everything(), b);
-      const std::uint64_t before = bytes_of_vertices(renderer.plan());
-      EXPECT_TRUE(same_film(film, renderer.render(short_run).film)) << room << " per path";
-      EXPECT_GT(bytes_of_vertices(renderer.plan()), before) << "nothing had to grow";
+  for (const char* method : methods)
+    for (bool compact : {false, true}) {
+      Build b = build_of(method);
+      b.compact_vertices = compact;
+      b.vertices_per_path = 64;  // enough
+      const Film film = film_of(b);
+      for (double room : {0.25, 0.01}) {
+        b.vertices_per_path = room;
+        Renderer renderer(everything(), b);
+        const std::uint64_t before = bytes_of_vertices(renderer.plan());
+        EXPECT_TRUE(same_film(film, renderer.render(short_run).film))
+            << method << ", " << room << " per path";
+        EXPECT_GT(bytes_of_vertices(renderer.plan()), before) << "nothing had to grow";
+      }
+    }
+}
+
+TEST(Vertices, slices_do_not_matter) {
+  for (const char* method : methods) {
+    const Film film = film_of(build_of(method));
+    for (uint rows : {1u, 5u}) {
+      Build b = build_of(method);
+      b.slice_rows = rows;
+      EXPECT_TRUE(same_film(film, film_of(b))) << method << ", " << rows << " rows in a slice";
+      b.light_paths = 100;  // fewer than one per pixel, so that slices share some
+      const Film shared = film_of(b);
+      b.slice_rows = 0;
+      EXPECT_TRUE(same_film(shared, film_of(b)))
+          << method << ", " << rows << " rows in a slice share light paths";
     }
   }
 }
 
-TEST(Vertices, slices_do_not_matter) {
-  const Film film = film_of(bdpt());
-  for (uint rows : {1u, 5u}) {
-    Build b = bdpt();
-    b.slice_rows = rows;
-    EXPECT_TRUE(same_film(film, film_of(b))) << rows << " rows in a slice";
-    b.light_paths = 100;  // fewer than one per pixel, so that slices share some
-    const Film shared = film_of(b);
-    b.slice_rows = 0;
-    EXPECT_TRUE(same_film(shared, film_of(b))) << rows << " rows in a slice share light paths";
-  }
-}
-
 TEST(Vertices, short_memory_makes_smaller_slices) {
-  Build b = bdpt();
+  Build b = build_of();
   b.vertices_per_path = 0.01;
   Renderer free(everything(), b);
   const Film film = free.render(short_run).film;
@@ -108,7 +115,7 @@ TEST(Vertices, compact_ones_are_nearly_as_good) {
   run.spp = 256;
   for (const char* name : {"everything", "equal-room", "equal-keyhole"}) {
     const Scene scene = scene_named(name);
-    Build b = bdpt();
+    Build b = build_of();
     const Picture full = Renderer(scene, b).render(run);
     b.compact_vertices = true;
     const Picture compact = Renderer(scene, b).render(run);
@@ -133,9 +140,8 @@ TEST(Vertices, compact_ones_are_nearly_as_good) {
 // Atomics of 64 bits, or two of 32 and a carry: whole numbers either way.
 TEST(Splats, atomics_do_not_matter) {
   const Scene scene = scene_named("equal-paint");
-  for (const char* method : {"light", "bdpt"}) {
-    Build b = bdpt();
-    b.method = method;
+  for (const char* method : {"light", "bdpt", "vcm"}) {
+    Build b = build_of(method);
     b.specialised = true;  // another program: a short one
     const Film film = Renderer(scene, b).render(short_run).film;
     b.int64_atomics = false;

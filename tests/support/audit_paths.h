@@ -33,6 +33,15 @@ inline EndVertex end_vertex(const Vertex& v, const Walk& walk, uint depth) {
   return {v, walk.beta, walk.partials, depth};
 }
 
+#ifdef TWIN_MERGE
+/// What the light's vertex, stored and made a photon, brings to the eye's in the same place.
+inline int merge_ends(const TwinScene& twin, const Launch& launch, const EndVertex& eye,
+                      const EndVertex& light, Merge* merge) {
+  const StoredVertex s = vertex_pack(&light.v, light.beta, light.partials, light.depth);
+  return merge_photon(&twin.data, launch, &eye, photon_of(&s), merge);
+}
+#endif
+
 /// Runs both walks of one number through the kernels and hands every path found to `found`.
 template <typename Found>
 class PathFinder {

@@ -124,7 +124,7 @@ class Replay {
   real by_merge(std::size_t i) const {
 #ifdef TWIN_MERGE
     Merge merge;
-    if (!path_.nodes[i].delta && merge_vertices(&twin_.data, launch_, &eye_[i], &light_[i], &merge))
+    if (!path_.nodes[i].delta && merge_ends(twin_, launch_, eye_[i], light_[i], &merge))
       return merge.weight;
 #endif
     return real(0);

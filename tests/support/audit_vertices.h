@@ -77,8 +77,8 @@ StorageErrors store_and_connect(const TwinScene& twin, Launch launch, Check chec
 #ifdef TWIN_MERGE
         Merge c, d;
         const EndVertex light = moved(twin, before[1][j], before[0][i]), back = stored(twin, light);
-        if (merge_vertices(&twin.data, launch, &before[0][i], &light, &c))
-          errors.compare(c, d, merge_vertices(&twin.data, launch, &after[0][i], &back, &d));
+        if (merge_ends(twin, launch, before[0][i], light, &c))
+          errors.compare(c, d, merge_ends(twin, launch, after[0][i], back, &d));
 #endif
       }
   }

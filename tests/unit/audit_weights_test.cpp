@@ -16,8 +16,8 @@ using namespace twin;
 using namespace pellucid::test;
 
 /// Double: rounding of some hundred operations. Float: the same; what it loses in cosines, squared
-/// distances and densities of rough lobes is of the order of 1e-6 each.
-constexpr double tolerance = is_float ? 1e-4 : 1e-9;
+/// distances and densities of rough lobes is of the order of 1e-6 each. Photons are kept as floats.
+constexpr double tolerance = is_float ? 1e-4 : merges ? 1e-5 : 1e-9;
 /// Below this |cosine| or share of the room, float knows directions to less than the tolerance.
 constexpr double graze = 1e-2;
 
