@@ -28,6 +28,7 @@ Build bdpt() {
   Build b;
   b.method = "bdpt";
   b.width = b.height = side;
+  b.sampler = Sampler::sobol;  // as the program and exact_test.cpp have it: the same kernels
   b.filter = PixelFilter::gaussian;
   return b;
 }
