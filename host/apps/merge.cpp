@@ -1,5 +1,6 @@
 // merge: checkpoints of disjoint passes to one picture or checkpoint.
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,6 @@
 // render: from a scene to pictures.
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <filesystem>

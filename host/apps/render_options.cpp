@@ -1,4 +1,6 @@
 // Options of `render`: declaration, checks, and their meaning.
+#include <CLI/App.hpp>  // before NONE of layout.h, which is a name in it
+
 #include "apps/render_options.h"
 
 #include <fmt/format.h>

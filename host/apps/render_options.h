@@ -1,7 +1,6 @@
 // The command line of `render`: every option, and what it means for a scene and a method.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,6 +9,10 @@
 #include "apps/outputs.h"
 #include "render/session.h"
 #include "scene/load.h"
+
+namespace CLI {
+class App;
+}
 
 namespace pellucid {
 
