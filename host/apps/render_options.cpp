@@ -89,6 +89,14 @@ void set_merging(const RenderFlags& flags, const Integrator& method, RenderOptio
   }
 }
 
+/// Which vertices merge. Throws UsageError where the method has no choice.
+void set_merges(const RenderFlags& flags, const Integrator& method, RenderOptions& o) {
+  if (flags.merges.empty()) return;
+  if (!method.merges_everywhere())
+    throw UsageError("--merges has no effect on '" + method.name + "'");
+  o.merge_first_only = one_of("--merges", flags.merges, {"all", "first"}) == "first";
+}
+
 /// What concerns sub-paths from lights. Throws UsageError where the method has none.
 void set_sub_paths(const RenderFlags& flags, const Integrator& method, RenderOptions& o) {
   if (flags.light_paths) {
@@ -97,6 +105,7 @@ void set_sub_paths(const RenderFlags& flags, const Integrator& method, RenderOpt
     o.light_paths = uint(flags.light_paths);
   }
   set_merging(flags, method, o);
+  set_merges(flags, method, o);
   if (flags.vertices.empty()) return;
   o.plan.compact_vertices = one_of("--vertices", flags.vertices, {"full", "compact"}) == "compact";
   if (!method.uses(Bundle::light_vertices))
@@ -146,9 +155,8 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
   app.add_option("-i,--integrator", f.integrator,
                  "the method (default: the scene's, else path). " + methods)
       ->type_name(integrator_names());
-  app.add_option(
-         "--mis", f.mis,
-         "how methods weigh their strategies (default balance); max: `path` alone")
+  app.add_option("--mis", f.mis,
+                 "how methods weigh their strategies (default balance); max: `path` alone")
       ->type_name("balance|power|max");
   app.add_option("--spp", f.spp, "samples per pixel (default: the scene's, else 64)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));
@@ -173,6 +181,11 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
          "how the radius shrinks, above 0 and up to 1 (default 0.75): as pass^((alpha-1)/2), down "
          "to 16 roundings of the largest coordinate")
       ->type_name("NUMBER");
+  app.add_option(
+         "--merges", f.merges,
+         "vertices of eye paths at which `bpm` and `vcm` merge: all (default), or the first "
+         "one that can: quicker, and no path is lost")
+      ->type_name("all|first");
   app.add_option("--vertices", f.vertices,
                  "how path vertices are kept: full (default), or compact, in half the memory")
       ->type_name("full|compact");

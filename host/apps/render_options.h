@@ -20,7 +20,7 @@ namespace pellucid {
 struct RenderFlags {
   std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, size, crop,
                                  passes, features = "auto", kernel_dir, stats, memory, checkpoint,
-                                 every, vertices, radius, radius_alpha, atlas, grid;
+                                 every, vertices, radius, radius_alpha, merges, atlas, grid;
   std::vector<std::string> overrides, outputs, aovs;
   DeviceFlags device;
   DisplayFlags display;

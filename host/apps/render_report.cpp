@@ -65,6 +65,7 @@ std::string settings_text(const Scene& scene, const RenderOptions& o) {
   if (o.radius) text += fmt::format(" radius {}", *o.radius);
   if (o.radius_alpha != RenderOptions().radius_alpha)
     text += fmt::format(" radius-alpha {}", o.radius_alpha);
+  if (o.merge_first_only) text += " merges first";
   if (o.plan.compact_vertices) text += " vertices compact";
   return text;
 }

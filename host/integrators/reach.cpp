@@ -13,7 +13,8 @@
 //   INTG_NEE    s = 1, t >= 2    paths whose first scattering is a D;
 //   INTG_SPLAT  s >= 2, t = 1    paths whose last scattering is a D (also s = 1 by NEE of L D E);
 //   INTG_CONNECT s, t >= 2       paths with two D in a row;
-//   INTG_MERGE   a D of both     every path: no edge is needed. `sppm` does so at the first
+//   INTG_MERGE   a D of both     every path: no edge is needed, any light vertex near a D is taken
+//                                for the one that would hit it. `sppm` does so at the first
 //                                wide D from the camera alone, none whose lobes are all narrow (N).
 // What escapes all strategies that aim is the paths for which each fails: a conjunction of
 //   first S (NEE fails), last S (splats fail), no D D (connections fail),
@@ -99,16 +100,9 @@ std::vector<std::string> describe(unsigned paths, unsigned lights, const SceneOp
   return {fmt::format("anything lit by {}", names)};
 }
 
-/// Merging takes any light vertex near a D for the one that would hit it: every path with a D,
-/// where eye paths go on from one to the next.
-bool merges_everywhere(const Integrator& method) {
-  return method.wishes.has(INTG_MERGE) &&
-         (method.wishes.has(INTG_CONNECT) || !method.wishes.has(INTG_NEE));
-}
-
 /// Lights of which the method never draws what it does not aim at.
 unsigned never_found(const Integrator& method, const SceneOptics& scene) {
-  if (merges_everywhere(method)) return 0;
+  if (method.merges_everywhere()) return 0;
   return counts_chance_hits(method) ? scene.lights & ~HITTABLE : scene.lights;
 }
 
@@ -154,7 +148,7 @@ std::vector<std::string> unreachable_paths(const Integrator& method, const Scene
 }
 
 std::vector<std::string> chance_paths(const Integrator& method, const SceneOptics& scene) {
-  if (merges_everywhere(method)) return {};
+  if (method.merges_everywhere()) return {};
   return describe(not_aimed_at(method), scene.lights & EMITTERS & ~never_found(method, scene),
                   scene);
 }
@@ -185,12 +179,12 @@ std::vector<std::string> blind_spots(const Integrator& method, const SceneOptics
   if (!seers.some.empty()) who += fmt::format("; {} can in part", join(seers.some));
   if (who.empty()) who = "; no method here can";
   std::vector<std::string> sentences;
-  const unsigned holds = merges_everywhere(method) ? LOBE_SPREAD | LOBE_NARROW : LOBE_SPREAD;
+  const unsigned holds = method.merges_everywhere() ? LOBE_SPREAD | LOBE_NARROW : LOBE_SPREAD;
   if (method.wishes.has(INTG_MERGE) && !(scene.lobes & holds))
     sentences.push_back(fmt::format(
         "'{}' merges nothing here: no surface scatters {}, so none holds photons", method.name,
-        holds & LOBE_NARROW ? "but by delta lobes" : fmt::format("wider than roughness {:g}",
-                                                                 std::sqrt(ALPHA_GATHER))));
+        holds & LOBE_NARROW ? "but by delta lobes"
+                            : fmt::format("wider than roughness {:g}", std::sqrt(ALPHA_GATHER))));
   for (const std::string& what : unreachable_paths(method, scene))
     sentences.push_back(fmt::format("'{}' cannot see {}{}", method.name, what, who));
   return sentences;

@@ -60,6 +60,11 @@ struct Integrator {
   uint layers = 0;           ///< set of layers that are kept (render/layers.h)
 
   bool walks_from_lights() const { return wishes.has(INTG_SPLAT) || wishes.has(INTG_MERGE); }
+  /// At all vertices of eye paths, weighed against all strategies; `sppm` does so at one, where its
+  /// eye paths end.
+  bool merges_everywhere() const {
+    return wishes.has(INTG_MERGE) && (wishes.has(INTG_CONNECT) || !wishes.has(INTG_NEE));
+  }
 
   bool uses(Bundle bundle) const {
     for (const Pass& pass : passes)

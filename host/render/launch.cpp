@@ -49,7 +49,8 @@ double default_radius(const PackedScene& scene, uint light_paths) {
   constexpr double share =
       1.5;  // 0.003 of the scene's radius with 512x512 paths, as SmallVCM has it
   const double r = scene.info.center_radius.w > 0.0f ? scene.info.center_radius.w : 1.0;
-  return share * r / std::sqrt(double(light_paths));
+  return (getenv("PELLUCID_SHARE") ? atof(getenv("PELLUCID_SHARE")) : share) * r /
+         std::sqrt(double(light_paths));
 }
 
 double least_radius(const PackedScene& scene) {
@@ -67,16 +68,19 @@ void check_radius(const PackedScene& scene, double asked) {
                   asked, least_radius(scene)));
 }
 
-void set_merging(Launch& launch, double first_radius, double alpha, double least) {
+void set_merging(Launch& launch, const Merging& merging) {
   constexpr double pi = 3.14159265358979323846;
   // [Knaus11]: as a function of the pass, so that passes may be done in any order.
-  const double shrunk = first_radius * std::pow(double(launch.iteration) + 1.0, 0.5 * (alpha - 1));
-  const double radius = std::max(shrunk, least);
+  const double shrunk =
+      merging.first_radius * std::pow(double(launch.iteration) + 1.0, 0.5 * (merging.alpha - 1));
+  const double radius = std::max(shrunk, merging.least_radius);
   const double eta = pi * radius * radius * launch.light_paths;
   launch.radius = float(radius);
   launch.merge_scale = float(1 / eta);
   launch.mis_vm = float(eta);
-  launch.mis_vc = float(1 / eta);
+  launch.mis_deep = getenv("PELLUCID_DEEP") ? float(atof(getenv("PELLUCID_DEEP")))
+                    : merging.first_only    ? 0.0f
+                                            : MERGE_DEEP_TRUST;
 }
 
 void set_grid(Launch& launch, const F4& origin, uint grid_bits) {

@@ -22,8 +22,15 @@ double least_radius(const PackedScene& scene);
 /// Throws UsageError where --radius asks for less.
 void check_radius(const PackedScene& scene, double asked);
 
+/// How methods merge: the radius of the first pass, how it shrinks and where it stops, world units;
+/// whether at the first vertex of eye paths alone.
+struct Merging {
+  double first_radius = 0, alpha = 0.75, least_radius = 0;
+  bool first_only = false;
+};
+
 /// What merging needs to know in launch.iteration, which alone decides on the radius.
-void set_merging(Launch& launch, double first_radius, double alpha, double least);
+void set_merging(Launch& launch, const Merging& merging);
 
 /// The photon grid of the launch's radius: cells of twice that, so that a search sees 8, counted
 /// from `origin`; a table of 2^grid_bits places.

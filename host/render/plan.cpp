@@ -109,9 +109,8 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
       memory_limit_(memory.limit),
       slice_rows_(memory.slice_rows),
       merges_(integrator.uses(Bundle::grid)),
-      first_radius_(options.radius.value_or(default_radius(scene, options.light_path_count()))),
-      radius_alpha_(options.radius_alpha),
-      least_radius_(least_radius(scene)),
+      merging_{options.radius.value_or(default_radius(scene, options.light_path_count())),
+               options.radius_alpha, least_radius(scene), options.merge_first_only},
       grid_bits_(grid_bits_for(options)),
       buffers_(upload_scene(device_, scene)) {
   for (const auto& [name, size] : memory.buffers)
@@ -201,7 +200,7 @@ void Plan::enqueue(Launch launch) {
   if (sides_.empty())
     run_whole(launch);
   else if (merges_) {
-    set_merging(launch, first_radius_, radius_alpha_, least_radius_);
+    set_merging(launch, merging_);
     set_grid(launch, scene_info_.center_radius, grid_bits_);
     run_merging(launch);
   } else

@@ -14,6 +14,7 @@
 #include "render/diagnostics.h"
 #include "render/film.h"
 #include "render/integrator.h"
+#include "render/launch.h"
 #include "render/memory.h"
 #include "render/options.h"
 #include "render/specialise.h"
@@ -119,7 +120,7 @@ class Plan {
   std::uint64_t memory_limit_;
   uint slice_rows_ = 1;  ///< fewer where vertices would exceed memory
   bool merges_;          ///< needs the vertices of all light paths at once
-  double first_radius_, radius_alpha_, least_radius_;
+  Merging merging_;
   uint grid_bits_;
   std::vector<Side> sides_;  ///< light, eye; empty for methods that store none
   std::map<std::string, Buffer> buffers_;

@@ -26,6 +26,9 @@ __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PA
   for (uint i = eye_first[index]; i < eye_first[index + 1u]; ++i) {
     __global const StoredVertex* eye_at = (__global const StoredVertex*)eye_vertices;
     EndVertex eye = vertex_unpack(&scene_data, eye_at[eye_order[i]], 0);
+#if INTG_MERGE
+    eye.partials.first = i == eye_first[index];
+#endif
     for (uint j = light_first[path]; j < light_end; ++j) {
       __global const StoredVertex* light_at = (__global const StoredVertex*)light_vertices;
       EndVertex light = vertex_unpack(&scene_data, light_at[light_order[j]], 1);

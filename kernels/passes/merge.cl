@@ -62,11 +62,14 @@ __kernel void merge(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARA
   uint pixel = launch.slice_first + index;
   real3 sum = (float3)(0.0f);
   for (uint i = eye_first[index]; i < eye_first[index + 1u]; ++i) {
+    int first = i == eye_first[index];
+    if (!first && launch.mis_deep == 0.0f) break;
     __global const StoredVertex* eye_at = (__global const StoredVertex*)eye_vertices;
     EndVertex eye = vertex_unpack(&scene_data, eye_at[eye_order[i]], 0);
+    eye.partials.first = first;
 #if INTG_LAYERS
     LayerSink sink = layer_sink(layers, diag, launch, pixel);
-    sink.first = i == eye_first[index];
+    sink.first = first;
     if (sink.first) paint_cell(launch, photon_positions, grid_cells, eye.v.surface.p, sink);
 #endif
     sum += merge_around(&scene_data, launch, photon_positions, photons, grid_cells,

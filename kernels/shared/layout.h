@@ -196,12 +196,13 @@ typedef struct Launch {
   float radius;       // of merging, world units
   float merge_scale;  // 1 / (pi radius^2 light paths): from power to radiance
   float mis_vm;       // [Georgiev12 eq. 11] eta of merging over connecting: pi radius^2 light paths
-  float mis_vc;       // its inverse
   float grid_x, grid_y, grid_z;  // origin of the photon grid: amid the scene
   float cells_per_unit;          // of length, along an axis
   uint grid_bits;                // its table has 2^this places
   uint photon_count;             // light vertices in it
   uint digit;                    // of the sort, from 0
+  float
+      mis_deep;  // what merges after the first weigh of what their density says; 0: there are none
   uint pad1;
 } Launch;
 LAYOUT_CHECK(Launch, 176);

@@ -79,6 +79,12 @@
 #define MERGE_RADIUS_MIN 1.08420217248550443e-19f /* 2^-63 */
 #define MERGE_RADIUS_MAX 70368744177664.0f        /* 2^46 */
 
+/// A merge after the first weighs this share of what its density says. The photons around a vertex
+/// are met all at once, and where a walk comes upon a bright spot, rarely: they are no independent
+/// samples, which weights take them for ([Jendersie18], [Grittmann21]). Every path with a merge
+/// after the first has one there, too, so nothing depends on them.
+#define MERGE_DEEP_TRUST 0.05f
+
 /// Photons merge where their surface faces the same way, within 60 degrees: others lie round a
 /// corner or on the back of a thin wall.
 #define MERGE_COS_MIN 0.5f

@@ -87,7 +87,11 @@ INLINE int camera_link(PRIVATE const SceneData* scene, Launch launch, Camera cam
 #if INTG_CONNECT
   real cos_g = r_abs(dot3(v->surface.ng, wi));
   real reverse = vertex_pdf_reverse(scene, v, wi) * (real)v->material.survive;
-  real others = partials_end(launch, w->walk.partials, cos_g * scale, reverse);
+  Partials q = w->walk.partials;
+#if INTG_MERGE
+  q.first = 1;
+#endif
+  real others = partials_end(launch, q, cos_g * scale, reverse);
   link->weight = partial_weight(launch.mis, others, REAL(0.0));
 #endif
   return shadow_ray(&v->surface, wi, load3(camera.origin), &link->ray);

@@ -21,6 +21,9 @@ typedef struct Partials {
   real dVCM;
   real dVC_scaled;  // dVC over 2^(64 scale)
   uint scale;
+#if INTG_MERGE
+  int first;  // no vertex before this one, from the camera, could have been merged
+#endif
 } Partials;
 
 #define PARTIALS_SCALE REAL(18446744073709551616.0)         /* 2^64 */
@@ -31,6 +34,18 @@ INLINE Partials partials_start(real dVCM, real dVC) {
   q.dVCM = dVCM;
   q.dVC_scaled = dVC;
   q.scale = 0u;
+#if INTG_MERGE
+  q.first = 0;
+#endif
+  return q;
+}
+
+/// Of a walk from the camera, whose direction has density `pdf_camera` [1/sr].
+INLINE Partials partials_from_camera(Launch launch, real pdf_camera) {
+  Partials q = partials_start((real)launch.light_paths / pdf_camera, REAL(0.0));
+#if INTG_MERGE
+  q.first = 1;
+#endif
   return q;
 }
 
@@ -71,12 +86,19 @@ INLINE real partial_weight(uint heuristic, real light, real eye) {
   return REAL(1.0) / (REAL(1.0) + light + eye);
 }
 
+#if INTG_MERGE
+/// What a merge at the last vertex weighs over a connection to it.
+INLINE real merge_density(Launch launch, Partials q) {
+  return (real)launch.mis_vm * (q.first ? REAL(1.0) : (real)launch.mis_deep);
+}
+#endif
+
 /// Of the strategies on one side, those that end at its last vertex: a connection to it, a merge.
 INLINE real partials_here(Launch launch, Partials q) {
 #if INTG_CONNECT && INTG_MERGE
-  return partial_sum(launch.mis, q.dVCM, (real)launch.mis_vm);
+  return partial_sum(launch.mis, q.dVCM, merge_density(launch, q));
 #elif INTG_MERGE
-  return (real)launch.mis_vm;
+  return merge_density(launch, q);
 #else
   return q.dVCM;
 #endif
@@ -124,7 +146,7 @@ INLINE real partials_merge(Launch launch, Partials q, real reverse) {
 #if INTG_CONNECT
   sum = partial_sum(launch.mis, sum, q.dVCM);
 #endif
-  return sum * (real)launch.mis_vc;
+  return sum / merge_density(launch, q);
 }
 #endif
 

@@ -167,7 +167,7 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
                            PRIVATE VertexStore* store, PRIVATE uint* rays) {
   Walk walk = walk_start(camera_ray, REAL3(1.0f, 1.0f, 1.0f));
 #if INTG_PARTIALS
-  walk.partials = partials_start((real)launch.light_paths / pdf_camera, REAL(0.0));
+  walk.partials = partials_from_camera(launch, pdf_camera);
 #endif
 #if INTG_LAYERS
   walk.layers = layers;

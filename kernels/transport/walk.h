@@ -77,6 +77,9 @@ INLINE void walk_leave(PRIVATE const SceneData* scene, Launch launch, PRIVATE co
     real reverse = vertex_pdf_reverse(scene, v, s.wi) * survive;
     partials_scatter(launch, &walk->partials, s.pdf_w * survive, reverse, cos_g);
   }
+#if INTG_MERGE
+  if (!bsdf_is_delta(v->material)) walk->partials.first = 0;
+#endif
 }
 #endif
 

@@ -67,10 +67,16 @@ class PathDensities {
   /// Both walks draw point i, and one of all light paths comes within the radius: its density is
   /// that of a connection times the chance of that [Georgiev12 eq. 11].
   double merge_density(std::size_t i) const {
-    double p = double(launch_.mis_vm);
+    double p = double(launch_.mis_vm) * (merged_first(i) ? 1.0 : double(launch_.mis_deep));
     for (std::size_t j = 0; j <= i; ++j) p *= from_light(j);
     for (std::size_t j = i; j <= k_; ++j) p *= from_eye(j);
     return p;
+  }
+  /// Nothing between point i and the camera could have been merged.
+  bool merged_first(std::size_t i) const {
+    for (std::size_t j = i; j < k_; ++j)
+      if (!bsdf_is_delta(twin_.packed.materials[path_.nodes[j].surface.material])) return false;
+    return true;
   }
   double from_light(std::size_t i) const;
   double from_eye(std::size_t i) const;

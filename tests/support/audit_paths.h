@@ -183,7 +183,7 @@ template <typename Found>
 real3 PathFinder<Found>::walk_eye(Rng rng, uint path) {
   const Ray ray = camera_ray_of(path);
   Walk walk = walk_start(ray, REAL3(1, 1, 1));
-  walk.partials = partials_start(real(launch_.light_paths) / camera_pdf_w(camera_, ray.d), real(0));
+  walk.partials = partials_from_camera(launch_, camera_pdf_w(camera_, ray.d));
   for (uint depth = 1; depth <= depth_limit(launch_); ++depth) {
     const Hit hit = bvh_trace(&scene_, walk.ray, 0);
     const real3 d = walk.ray.d, before = walk.radiance;

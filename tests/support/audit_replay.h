@@ -73,8 +73,7 @@ class Replay {
     const ::Camera& camera = twin_.packed.camera;
     eye_walk_ =
         walk_start(make_ray(load3(camera.origin), -path_.edges[k_], REAL_MAX), REAL3(1, 1, 1));
-    eye_walk_.partials =
-        partials_start(real(launch_.light_paths) / camera_pdf_w(camera, eye_walk_.ray.d), real(0));
+    eye_walk_.partials = partials_from_camera(launch_, camera_pdf_w(camera, eye_walk_.ray.d));
     eye_.resize(k_);
     for (std::size_t i = k_; i-- > 0;) {
       const Vertex v = vertex_at(&twin_.data, path_.nodes[i].surface, path_.edges[i + 1], 0);

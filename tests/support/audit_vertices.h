@@ -92,7 +92,7 @@ inline Launch storage_launch() {
   launch.seed = 7;
   launch.max_depth = 12;
   launch.mis = MIS_BALANCE;
-  if (merges) launch.mis_vm = launch.mis_vc = launch.merge_scale = 1;
+  if (merges) launch.mis_vm = launch.mis_deep = launch.merge_scale = 1;
   return launch;
 }
 

@@ -65,21 +65,30 @@ Launch launch_of(uint heuristic, double merging) {
   Launch launch{};
   launch.mis = heuristic;
   launch.mis_vm = merges ? float(merging) : 0.0f;
-  launch.mis_vc = merges ? float(1 / merging) : 0.0f;
+  launch.mis_deep = 0.25f;
   return launch;
+}
+
+void set_first(Partials& q, bool first) {
+#ifdef TWIN_MERGE
+  q.first = first;
+#endif
 }
 
 /// Partials after arriving at each vertex from the second on. The start is drawn the same way by
 /// all strategies that draw it, and `hit`: also by chance from the other end.
 std::vector<Partials> partials_along(const Launch& launch, const Chain& c, bool hit) {
+  bool first = !hit;  // from the camera
   std::vector<Partials> all(vertices);
   Partials q = partials_start(real(1) / c.forward(0),
                               hit ? real(c.cos_leave[0] / c.density_a[0]) / c.forward(0) : real(0));
   for (int i = 1; i < vertices; ++i) {
     partials_arrive(&q, real(c.distance2[i - 1]), real(c.cos_arrive[i]));
+    set_first(q, first);
     all[i] = q;
     if (i + 1 < vertices)
       partials_scatter(launch, &q, c.forward(i), c.backward(i), real(c.cos_leave[i]));
+    first = false;
   }
   return all;
 }
@@ -91,7 +100,8 @@ std::vector<double> exact_weights(const Launch& launch, const Chain& c) {
   for (int s = 1; s < vertices; ++s)
     logs[s] = logs[s - 1] + std::log(double(c.density_a[s - 1]) / double(c.reverse_a[s - 1]));
   for (int i = 1; merges && i + 1 < vertices; ++i)
-    logs.push_back(logs[i] + std::log(c.density_a[i] * double(launch.mis_vm)));
+    logs.push_back(logs[i] + std::log(c.density_a[i] * double(launch.mis_vm) *
+                                      (i + 2 == vertices ? 1.0 : double(launch.mis_deep))));
   const double most = *std::max_element(logs.begin(), logs.end());
   double sum = 0;
   for (double& x : logs) sum += x = std::exp((launch.mis == MIS_POWER ? 2 : 1) * (x - most));
@@ -113,9 +123,9 @@ real joined(const Launch& launch, const Chain& c, int s, const Partials& light,
 }
 
 /// The same of merging at vertex i.
-real merged(const Launch& launch, const Chain& c, int i, const Partials& light,
-            const Partials& eye) {
+real merged(const Launch& launch, const Chain& c, int i, Partials light, const Partials& eye) {
 #ifdef TWIN_MERGE
+  light.first = eye.first;
   return partial_weight(launch.mis, partials_merge(launch, light, c.backward(i)),
                         partials_merge(launch, eye, c.forward(i)));
 #else
@@ -170,7 +180,7 @@ TEST(AuditPartials, NoWayBackLeavesWhatEndsHere) {
     Partials q = partials_start(real(2), real(5));
     q.scale = scale;
     partials_scatter(launch, &q, real(0.5), real(0), real(0.25));
-    EXPECT_EQ(double(partials_dVC(q)), (merges ? 5 : 2) * 0.25 / 0.5) << scale;
+    EXPECT_EQ(double(partials_dVC(q)), (merges ? 2.75 : 2) * 0.25 / 0.5) << scale;
   }
 }
 

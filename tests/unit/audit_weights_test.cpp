@@ -147,7 +147,7 @@ void audit(const char* name, bool open, uint heuristic) {
     launch.iteration = path / 1024;
     if (merges) {
       launch.mis_vm = merging[launch.iteration];
-      launch.mis_vc = 1 / launch.mis_vm;
+      launch.mis_deep = 0.125f;
     }
     PathFinder<decltype(record)> finder(twin, launch, record);
     const real3 radiance = finder.run(path % 1024);

@@ -21,7 +21,7 @@ Launch pass(uint number, double first_radius, double alpha, double least = 0) {
   Launch launch{};
   launch.iteration = number;
   launch.light_paths = 1000;
-  set_merging(launch, first_radius, alpha, least);
+  set_merging(launch, {first_radius, alpha, least, false});
   return launch;
 }
 
@@ -43,7 +43,6 @@ TEST(Launches, weights_and_power_count_the_same_photons) {
     const Launch launch = pass(number, 0.25, 0.75);
     const double r = launch.radius, eta = 3.14159265358979323846 * r * r * 1000;
     EXPECT_NEAR(launch.mis_vm / eta, 1, 3e-7);  // roundings of three floats
-    EXPECT_NEAR(launch.mis_vc * eta, 1, 3e-7);
     EXPECT_NEAR(launch.merge_scale * eta, 1, 3e-7);
   }
 }
@@ -55,7 +54,6 @@ TEST(Launches, radius_scales_exactly) {
     EXPECT_EQ(b.radius, std::ldexp(a.radius, k));
     EXPECT_EQ(b.mis_vm, std::ldexp(a.mis_vm, 2 * k));
     EXPECT_EQ(b.merge_scale, std::ldexp(a.merge_scale, -2 * k));
-    EXPECT_EQ(b.mis_vc, std::ldexp(a.mis_vc, -2 * k));
   }
 }
 
@@ -74,13 +72,13 @@ TEST(Launches, all_that_merging_needs_stays_a_number) {
     for (uint paths : {1u, 0xffffffffu}) {
       Launch launch{};
       launch.light_paths = paths;
-      set_merging(launch, radius, 1, 0);
+      set_merging(launch, {radius, 1, 0, false});
       set_grid(launch, F4{1, 2, 3, 0}, GRID_BITS_MAX);
       EXPECT_TRUE(std::isnormal(launch.radius * launch.radius));
       EXPECT_TRUE(std::isnormal(launch.mis_vm));
       EXPECT_TRUE(std::isnormal(launch.cells_per_unit));
-      EXPECT_GT(launch.mis_vc, 0.0f);
-      EXPECT_TRUE(std::isfinite(launch.mis_vc));
+      EXPECT_GT(launch.merge_scale, 0.0f);
+      EXPECT_TRUE(std::isfinite(launch.merge_scale));
     }
 }
 
