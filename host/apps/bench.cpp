@@ -1,6 +1,7 @@
 // bench: speed on this device, in figures that can be compared from run to run and device to
 // device.
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 
@@ -112,8 +113,10 @@ ExitCode BenchCommand::run_rays(const CommonOptions& common) const {
 }
 
 ExitCode BenchCommand::run_sampler(const CommonOptions& common) const {
-  std::vector<Scene> scenes =
-      open_scenes({"cornell-box", "four-balls-point", "four-balls-background", "veach-mis"});
+  std::vector<std::string> names{"cornell-box", "four-balls-point", "four-balls-background",
+                                 "veach-mis"};
+  if (!scenes_asked.empty()) names = scenes_asked;
+  std::vector<Scene> scenes = open_scenes(names);
   const Device target = device.open();
   Progress progress("bench");
   SamplerBenchOptions options;
@@ -169,7 +172,8 @@ ExitCode BenchCommand::run(const CommonOptions& common) const {
   if (std::find(workloads.begin(), workloads.end(), only) == workloads.end())
     throw UsageError("--only: there is no workload '" + only + "'; there are " + join(workloads) +
                      "." + did_you_mean(only, workloads));
-  if (!scenes_asked.empty() && only != "render") throw UsageError("--scene is for --only render");
+  if (!scenes_asked.empty() && only == "rays")
+    throw UsageError("--scene is for --only render and --only sampler");
   if (!baseline.empty() && only != "rays") throw UsageError("--baseline is for --only rays");
   if (only == "rays") return run_rays(common);
   if (only == "sort") return run_sorts(common);
@@ -186,7 +190,7 @@ CommandRun setup_bench(CLI::App& app) {
                  "host")
       ->type_name("rays|render|sampler|sort");
   app.add_option("--scene", c->scenes_asked,
-                 "with --only render: this scene instead of the workload's; repeatable")
+                 "with --only render or sampler: this scene instead of the workload's; repeatable")
       ->type_name("SCENE")
       ->allow_extra_args(false);
   c->device.declare(app);

@@ -2,13 +2,14 @@
 // CMakeLists.txt. The file reads from top to bottom: options, what it does, declaration of options.
 #pragma once
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <functional>
 #include <string>
 
 #include "base/error.h"
+
+namespace CLI {
+class App;  // its header alone takes seconds to compile: for files that declare options
+}
 
 namespace pellucid {
 

@@ -1,5 +1,6 @@
 // `pellucid compare A B`: how far A is from the reference B, and whether that is near enough.
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <cmath>
 #include <memory>

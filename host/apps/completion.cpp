@@ -1,5 +1,8 @@
 // completion: what shells need to complete command lines, made from the tables of options.
 #include <fmt/format.h>
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,8 @@
 // Options that name and bound the device.
 #include "apps/device_input.h"
 
+#include <CLI/App.hpp>
+
 #include "base/log.h"
 #include "base/parallel.h"
 

@@ -1,10 +1,13 @@
 // What commands on devices share: which one, and with how many threads.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 
 #include "cl/device.h"
+
+namespace CLI {
+class App;
+}
 
 namespace pellucid {
 

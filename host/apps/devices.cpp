@@ -1,5 +1,6 @@
 // devices: what OpenCL offers here, and whether it works.
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <nlohmann/json.hpp>
 

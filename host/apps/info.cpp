@@ -1,4 +1,5 @@
 // info: what is in a scene, an image or a checkpoint, and what rendering it would take.
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,6 @@
 // kernels: the specialised programs of a scene and method, to read or to keep.
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <nlohmann/json.hpp>
 

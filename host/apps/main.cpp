@@ -1,6 +1,9 @@
 // The program: finds the command, parses its options, and turns every failure into an exit code.
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,6 @@
 // merge: checkpoints of disjoint passes to one picture or checkpoint.
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -19,7 +20,7 @@ namespace {
 
 struct MergeFlags {
   std::vector<std::string> inputs, outputs, aovs;
-  std::string atlas;
+  std::string atlas, grid;
   DisplayFlags display;
   bool deterministic = false;
 };
@@ -81,11 +82,15 @@ ExitCode merge(const MergeFlags& flags, const CommonOptions& common) {
     check_output("-o", name, flags.inputs);
   }
   check_picture_types(pictures);
-  if (!flags.atlas.empty()) {
-    check_display_type("--atlas", flags.atlas);
-    check_output("--atlas", flags.atlas, flags.inputs);
-    check_output("--atlas", flags.atlas, flags.outputs);
+  for (const auto& [option, name] :
+       {std::pair<std::string, std::string>{"--atlas", flags.atlas}, {"--grid", flags.grid}}) {
+    if (name.empty()) continue;
+    check_display_type(option, name);
+    check_output(option, name, flags.inputs);
+    check_output(option, name, flags.outputs);
   }
+  if (!flags.atlas.empty() && !flags.grid.empty())
+    check_output("--grid", flags.grid, {flags.atlas});
   for (const std::string& aov : flags.aovs)
     if (aov != "variance" && aov != "samples")
       throw UsageError("--aov: there is no '" + aov +
@@ -94,13 +99,19 @@ ExitCode merge(const MergeFlags& flags, const CommonOptions& common) {
   Checkpoint all = merged(flags.inputs);
   if (!flags.atlas.empty() && !(layer_kinds(all.film.layers.set) & LAYERS_TECH))
     throw UsageError("--atlas: these checkpoints have no strategies; render with --aov tech");
+  if (!flags.grid.empty() && (layer_kinds(all.film.layers.set) & LAYERS_GRID) != LAYERS_GRID)
+    throw UsageError(
+        "--grid: these checkpoints lack layers of the photon grid; render with --aov "
+        "photons,cells,radius");
   if (!pictures.empty()) warn_of_gaps(all.film.passes);
   for (const std::string& name : checkpoints) write_checkpoint(name, all.film, all.facts);
   if (!pictures.empty()) write_pictures(pictures, picture_of(all, flags), display);
   if (!flags.atlas.empty()) write_image(flags.atlas, film_atlas(all.film));
+  if (!flags.grid.empty()) write_image(flags.grid, film_grid(all.film));
   log_info("{} files, passes {}", flags.inputs.size(), all.film.passes.text());
   std::vector<std::string> results = flags.outputs;
-  if (!flags.atlas.empty()) results.push_back(flags.atlas);
+  for (const std::string& drawn : {flags.atlas, flags.grid})
+    if (!drawn.empty()) results.push_back(drawn);
   if (common.wants_text())
     for (const std::string& name : results) print_result(name + "\n");
   write_json(common.json, {{"inputs", flags.inputs},
@@ -128,6 +139,8 @@ CommandRun setup_merge(CLI::App& app) {
       ->delimiter(',');
   app.add_option("--atlas", flags->atlas,
                  "draw the pyramid of strategies, if the checkpoints have their layers")
+      ->type_name("FILE");
+  app.add_option("--grid", flags->grid, "draw the photon grid, if the checkpoints have its layers")
       ->type_name("FILE");
   flags->display.declare(app);
   app.add_flag("--deterministic", flags->deterministic,

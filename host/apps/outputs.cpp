@@ -2,6 +2,7 @@
 #include "apps/outputs.h"
 
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <cctype>

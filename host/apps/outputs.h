@@ -1,12 +1,15 @@
 // Pictures as files: which suffixes there are, whether the files can be written, and writing them.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
 #include "image/image.h"
 #include "image/tonemap.h"
+
+namespace CLI {
+class App;
+}
 
 namespace pellucid {
 

@@ -1,5 +1,6 @@
 // render: from a scene to pictures.
 #include <fmt/format.h>
+#include <CLI/App.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -61,6 +62,7 @@ void RenderJob::check_outputs() const {
   std::vector<std::pair<std::string, std::string>> files;  // what it is, name
   for (const std::string& name : names_) files.emplace_back("-o", name);
   files.emplace_back("--atlas", flags_.atlas);
+  files.emplace_back("--grid", flags_.grid);
   files.emplace_back("--checkpoint", flags_.checkpoint);
   files.emplace_back("--stats", flags_.stats);
   if (common_.json != "-") files.emplace_back("--json", common_.json);
@@ -153,6 +155,7 @@ void RenderJob::write(const Film& film, bool pictures) {
   if (pictures) attempt([&] { write_pictures_of(film); });
   if (pictures && !flags_.atlas.empty())
     attempt([&] { write_image(flags_.atlas, film_atlas(film)); });
+  if (pictures && !flags_.grid.empty()) attempt([&] { write_image(flags_.grid, film_grid(film)); });
   if (first) std::rethrow_exception(first);
 }
 

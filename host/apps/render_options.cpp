@@ -1,4 +1,6 @@
 // Options of `render`: declaration, checks, and their meaning.
+#include <CLI/App.hpp>  // before NONE of layout.h, which is a name in it
+
 #include "apps/render_options.h"
 
 #include <fmt/format.h>
@@ -90,7 +92,7 @@ void set_merging(const RenderFlags& flags, const Integrator& method, RenderOptio
 /// What concerns sub-paths from lights. Throws UsageError where the method has none.
 void set_sub_paths(const RenderFlags& flags, const Integrator& method, RenderOptions& o) {
   if (flags.light_paths) {
-    if (!method.wishes.has(INTG_SPLAT))
+    if (!method.walks_from_lights())
       throw UsageError("--light-paths has no effect on '" + method.name + "', which traces none");
     o.light_paths = uint(flags.light_paths);
   }
@@ -125,12 +127,15 @@ std::string aov_help() {
   return "further EXR channels, by comma: " + join(texts);
 }
 
-/// Names of the methods that trace light from the lights.
-std::vector<std::string> light_tracers() {
-  std::vector<std::string> names;
-  for (const Integrator& method : integrators())
-    if (method.wishes.has(INTG_SPLAT)) names.push_back(method.name);
-  return names;
+/// Throws UsageError where the method has nothing to put into a layer that `option` asks for.
+void check_layer(const LayerInfo& layer, const std::string& option, const Integrator& method) {
+  if (!layer.needs || method.wishes.has(*layer.needs)) return;
+  std::vector<std::string> others;
+  for (const Integrator& other : integrators())
+    if (other.wishes.has(*layer.needs)) others.push_back(other.name);
+  throw UsageError(
+      fmt::format("{}: '{}' {}; {}", option, method.name, layer.without,
+                  others.empty() ? "no method here does" : "methods that do: " + join(others)));
 }
 
 /// Method, effort and where samples lie.
@@ -143,7 +148,7 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
       ->type_name(integrator_names());
   app.add_option(
          "--mis", f.mis,
-         "how `path` and `bdpt` weigh their strategies (default balance); max: `path` alone")
+         "how methods weigh their strategies (default balance); max: `path` alone")
       ->type_name("balance|power|max");
   app.add_option("--spp", f.spp, "samples per pixel (default: the scene's, else 64)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));
@@ -169,7 +174,7 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
          "to 16 roundings of the largest coordinate")
       ->type_name("NUMBER");
   app.add_option("--vertices", f.vertices,
-                 "how `bdpt` keeps vertices: full (default), or compact, in half the memory")
+                 "how path vertices are kept: full (default), or compact, in half the memory")
       ->type_name("full|compact");
   app.add_option("--seed", f.seed, "random seed (default 0)")->check(whole_number);
 }
@@ -230,6 +235,10 @@ void RenderFlags::declare_files(CLI::App& app) {
                  "draw what every strategy brings, weighted and not, as a pyramid: rows by path "
                  "length, columns by s; implies --aov tech")
       ->type_name("FILE");
+  app.add_option("--grid", grid,
+                 "draw the photon grid of methods that merge in false colours: photons found, "
+                 "occupied cells, radius; implies --aov photons,cells,radius")
+      ->type_name("FILE");
   display.declare(app);
 }
 
@@ -262,7 +271,7 @@ void RenderFlags::override_settings(RenderSettings& settings) const {
 }
 
 uint RenderFlags::layer_kinds() const {
-  uint kinds = atlas.empty() ? 0 : LAYERS_TECH;
+  uint kinds = (atlas.empty() ? 0 : LAYERS_TECH) | (grid.empty() ? 0 : LAYERS_GRID);
   for (const LayerInfo& info : layer_table())
     if (std::find(aovs.begin(), aovs.end(), info.name) != aovs.end()) kinds |= info.kind;
   return kinds;
@@ -272,11 +281,10 @@ Integrator RenderFlags::method(const Scene& s) const {
   constexpr uint default_length = 5;
   const Integrator& plain = choose_integrator(integrator, s);
   const uint kinds = layer_kinds();
-  if (kinds & LAYERS_VERTICES && !plain.wishes.has(INTG_SPLAT))
-    throw UsageError(
-        fmt::format("--aov light-vertices: '{}' makes no light vertices; {}", plain.name,
-                    light_tracers().empty() ? "no method here does"
-                                            : "methods that do: " + join(light_tracers())));
+  for (const LayerInfo& layer : layer_table()) {
+    const bool by_name = std::find(aovs.begin(), aovs.end(), layer.name) != aovs.end();
+    if (kinds & layer.kind) check_layer(layer, by_name ? "--aov " + layer.name : "--grid", plain);
+  }
   return with_layers(plain, kinds, aov_length ? uint(aov_length) : default_length);
 }
 
@@ -310,7 +318,8 @@ std::vector<std::string> RenderFlags::output_names(const Scene& s) const {
 }
 
 std::vector<std::string> RenderFlags::results(std::vector<std::string> pictures) const {
-  if (!atlas.empty()) pictures.push_back(atlas);
+  for (const std::string& drawn : {atlas, grid})
+    if (!drawn.empty()) pictures.push_back(drawn);
   return pictures;
 }
 
@@ -328,6 +337,7 @@ void RenderFlags::check() const {
   if (aov_length && !(layer_kinds() & (LAYERS_LENGTH | LAYERS_TECH)))
     throw UsageError("--aov-length needs --aov length, --aov tech or --atlas FILE beside it");
   if (!atlas.empty()) check_display_type("--atlas", atlas);
+  if (!grid.empty()) check_display_type("--grid", grid);
   one_of("--sampler", sampler, sampler_names());
   display.transform();
 }

@@ -1,7 +1,6 @@
 // The command line of `render`: every option, and what it means for a scene and a method.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,13 +10,17 @@
 #include "render/session.h"
 #include "scene/load.h"
 
+namespace CLI {
+class App;
+}
+
 namespace pellucid {
 
 /// Options as people write them. Precedence: flag, environment, scene, default.
 struct RenderFlags {
   std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, size, crop,
                                  passes, features = "auto", kernel_dir, stats, memory, checkpoint,
-                                 every, vertices, radius, radius_alpha, atlas;
+                                 every, vertices, radius, radius_alpha, atlas, grid;
   std::vector<std::string> overrides, outputs, aovs;
   DeviceFlags device;
   DisplayFlags display;
@@ -31,7 +34,8 @@ struct RenderFlags {
   LoadOptions load_options() const;
   /// The scene's settings as the flags want them. Throws UsageError.
   void override_settings(RenderSettings& settings) const;
-  /// The method that flag, scene or default name, with the layers that --aov and --atlas need.
+  /// The method that flag, scene or default name, with the layers that --aov, --atlas and --grid
+  /// need.
   /// Throws UsageError.
   Integrator method(const Scene& s) const;
   /// What the session is told. Throws UsageError.
@@ -40,7 +44,7 @@ struct RenderFlags {
   double checkpoint_period() const;
   /// Pictures to write; the default ones are named after the scene.
   std::vector<std::string> output_names(const Scene& scene) const;
-  /// These pictures and the atlas, for reports.
+  /// These pictures and what is drawn of layers, for reports.
   std::vector<std::string> results(std::vector<std::string> pictures) const;
 
  private:

@@ -2,6 +2,7 @@
 #include "apps/scene_input.h"
 
 #include <sys/stat.h>
+#include <CLI/App.hpp>
 
 #include "base/error.h"
 #include "base/files.h"

@@ -1,12 +1,15 @@
 // What commands on scenes share: finding and loading them, and choosing the method.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
 #include "render/integrator.h"
 #include "scene/load.h"
+
+namespace CLI {
+class App;
+}
 
 namespace pellucid {
 

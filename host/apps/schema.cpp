@@ -1,4 +1,5 @@
 // schema: the scene format as a JSON schema, for editors.
+#include <CLI/App.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.h"

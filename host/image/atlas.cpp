@@ -7,50 +7,14 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "image/atlas_font.h"
+#include "image/canvas.h"
 #include "image/tonemap.h"
 
 namespace pellucid {
 namespace {
 
-constexpr float background = 0.12f, ink = 0.85f;               // display values
-constexpr int gap = 4, line = glyph_height + 4;                // pixels
-constexpr int most_side = 256, least_side = 10 * glyph_pitch;  // of a cell; texts fit
-
-const Glyph* glyph_of(char letter) {
-  for (const Glyph& glyph : glyphs)
-    if (glyph.letter == letter) return &glyph;
-  return nullptr;
-}
-
-/// A display picture to draw on.
-class Canvas {
- public:
-  Canvas(int width, int height) {
-    image_.width = width;
-    image_.height = height;
-    image_.channels = {"R", "G", "B"};
-    image_.data.assign(std::size_t(width) * std::size_t(height) * 3, background);
-  }
-  float* pixel(int x, int y) {
-    return &image_.data[(std::size_t(y) * std::size_t(image_.width) + std::size_t(x)) * 3];
-  }
-  void text(int x, int y, const std::string& text) {
-    for (const char letter : text) {
-      const Glyph* glyph = glyph_of(letter);
-      PELLUCID_CHECK(glyph, "the font of the atlas has the letter");
-      for (int row = 0; row < glyph_height; ++row)
-        for (int dot = 0; dot < glyph_width; ++dot)
-          if (glyph->rows[std::size_t(row)] >> (glyph_width - 1 - dot) & 1)
-            std::fill_n(pixel(x + dot, y + row), 3, ink);
-      x += glyph_pitch;
-    }
-  }
-  Image take() { return std::move(image_); }
-
- private:
-  Image image_;
-};
+constexpr int gap = 4, line = line_height;                      // pixels
+constexpr int most_side = 256, least_side = 10 * letter_pitch;  // of a cell; texts fit
 
 /// Size of a picture in its cell: it shrinks by a whole number, or grows by one.
 struct Scale {
@@ -119,10 +83,6 @@ std::vector<float> row_sum(int row, const std::vector<AtlasCell>& cells) {
 
 }  // namespace
 
-bool can_draw(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), glyph_of);
-}
-
 double row_exposure(const std::vector<float>& rgb) {
   constexpr double bright_part = 0.9, bright_value = 0.7;
   std::vector<float> peaks;
@@ -155,7 +115,7 @@ Image draw_atlas(int width, int height, const std::vector<std::string>& rows,
   }
   for (const auto& texts : {rows, stops})
     for (const std::string& text : texts)
-      layout.gutter = std::max(layout.gutter, int(text.size()) * glyph_pitch + gap);
+      layout.gutter = std::max(layout.gutter, int(text.size()) * letter_pitch + gap);
   const int w = layout.pyramid_width(), h = layout.pyramid_height();
   layout.beside = std::max(2 * w, h) <= std::max(w, 2 * h);
 

@@ -28,7 +28,4 @@ Image draw_atlas(int width, int height, const std::vector<std::string>& rows,
 /// the brightest channel of what is not black to 0.7. 0 for black ones.
 double row_exposure(const std::vector<float>& rgb);
 
-/// Whether the built-in font has every letter of a text.
-bool can_draw(const std::string& text);
-
 }  // namespace pellucid

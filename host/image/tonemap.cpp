@@ -19,23 +19,11 @@ Image rgb_like(const Image& image) {
   return out;
 }
 
-/// Colour of log10(error) = -3, -2, -1, 0, 1.
+/// From low to high.
 constexpr std::array<Rgb, 5> SCALE = {
     {{0, 0, 0}, {0.1f, 0.2f, 0.9f}, {0.9f, 0.1f, 0.1f}, {1, 0.9f, 0}, {1, 1, 1}}};
-constexpr float LOWEST_DECADE = -3.0f;
 constexpr Rgb NOT_A_NUMBER = {0, 1, 0};
-
-Rgb colour_of(float error) {
-  if (std::isnan(error)) return NOT_A_NUMBER;
-  const float last = static_cast<float>(SCALE.size() - 1);
-  const float place = std::clamp(std::log10(error) - LOWEST_DECADE, 0.0f, last);
-  const std::size_t below = std::min(static_cast<std::size_t>(place), SCALE.size() - 2);
-  const float t = place - static_cast<float>(below);
-  Rgb colour;
-  for (std::size_t c = 0; c < 3; ++c)
-    colour[c] = (1 - t) * SCALE[below][c] + t * SCALE[below + 1][c];
-  return colour;
-}
+constexpr float LOWEST_DECADE = -3.0f, DECADES = 4.0f;  // of errors
 
 /// The fit of ACES's reference curves for displays [Narkowicz15]: f(0) = 0, f(1) = 0.8038; it
 /// reaches 1 near 7.2.
@@ -45,6 +33,17 @@ double filmic(double v) {
 }
 
 }  // namespace
+
+std::array<float, 3> heat_colour(float t) {
+  if (std::isnan(t)) return NOT_A_NUMBER;
+  const float place = std::clamp(t, 0.0f, 1.0f) * static_cast<float>(SCALE.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(place), SCALE.size() - 2);
+  const float part = place - static_cast<float>(below);
+  Rgb colour;
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = (1 - part) * SCALE[below][c] + part * SCALE[below + 1][c];
+  return colour;
+}
 
 float srgb_encode(float linear) {
   if (!(linear > 0.0f)) return 0.0f;
@@ -81,7 +80,8 @@ Image to_display(const Image& linear, const DisplayTransform& display) {
 Image false_colour(const Image& error) {
   Image out = rgb_like(error);
   for (const float value : error.data)
-    for (const float component : colour_of(value)) out.data.push_back(component);
+    for (const float component : heat_colour((std::log10(value) - LOWEST_DECADE) / DECADES))
+      out.data.push_back(component);
   return out;
 }
 

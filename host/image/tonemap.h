@@ -1,6 +1,8 @@
 // From linear radiance to what a PNG holds, and from errors to colours.
 #pragma once
 
+#include <array>
+
 #include "image/image.h"
 
 namespace pellucid {
@@ -27,6 +29,10 @@ float display_value(float linear, const DisplayTransform& display);
 /// R,G,B of a linear image as a display picture. An image without them gives its first channel as
 /// grey. Metadata says so if its values are linear.
 Image to_display(const Image& linear, const DisplayTransform& display = {});
+
+/// Colour of a place on a scale from 0 to 1: black, blue, red, yellow, white, straight lines in
+/// between; NaN is green, which occurs nowhere else. Clipped.
+std::array<float, 3> heat_colour(float t);
 
 /// One channel of relative errors as display-referred RGB on a logarithmic scale: 0.001 and less
 /// black, 0.01 blue, 0.1 red, 1 yellow, 10 and more white, straight lines in between; NaN is green,

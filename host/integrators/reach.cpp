@@ -13,7 +13,8 @@
 //   INTG_NEE    s = 1, t >= 2    paths whose first scattering is a D;
 //   INTG_SPLAT  s >= 2, t = 1    paths whose last scattering is a D (also s = 1 by NEE of L D E);
 //   INTG_CONNECT s, t >= 2       paths with two D in a row;
-//   INTG_MERGE   a D of both     every path: no edge is needed.
+//   INTG_MERGE   a D of both     every path: no edge is needed. `sppm` does so at the first
+//                                wide D from the camera alone, none whose lobes are all narrow (N).
 // What escapes all strategies that aim is the paths for which each fails: a conjunction of
 //   first S (NEE fails), last S (splats fail), no D D (connections fail),
 // that is
@@ -21,6 +22,8 @@
 //   nee, path          L S+ D (D|S)* E     caustics and what they light
 //   light              L (D|S)* D S+ E     what is seen in mirrors and through glass
 //   bdpt               L S+ (D S+)+ E      caustics seen so: specular-diffuse-specular
+//   sppm               L S+ N (N|S)* E     caustics on narrow gloss
+//   bpm, vcm           none
 //
 // If the light is hittable, chance reaches those, except in `light`, whose camera counts emission
 // behind S alone. Shortest of the class: L D E, one S more for each end that has to be one.
@@ -28,21 +31,24 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "base/text.h"
+#include "shared/limits.h"
 
 namespace pellucid {
 namespace {
 
 // What all paths of a class have in common; a class is any sum of these.
-constexpr unsigned FIRST_DELTA = 1, LAST_DELTA = 2, ISOLATED_SPREAD = 4;
+constexpr unsigned FIRST_DELTA = 1, LAST_DELTA = 2, ISOLATED_SPREAD = 4, ALL_NARROW = 8;
 
 /// The class that no aiming strategy of the method draws.
 unsigned not_aimed_at(const Integrator& method) {
   return (method.wishes.has(INTG_NEE) ? FIRST_DELTA : 0) |
          (method.wishes.has(INTG_SPLAT) ? LAST_DELTA : 0) |
-         (method.wishes.has(INTG_CONNECT) ? ISOLATED_SPREAD : 0);
+         (method.wishes.has(INTG_CONNECT) ? ISOLATED_SPREAD : 0) |
+         (method.wishes.has(INTG_MERGE) ? ALL_NARROW : 0);
 }
 
 /// Walks from the camera count the emission that they hit, after whatever scattering.
@@ -54,7 +60,8 @@ bool counts_chance_hits(const Integrator& method) {
 bool occurs(unsigned paths, const SceneOptics& scene, unsigned more = 0) {
   const unsigned deltas = (paths & FIRST_DELTA ? 1u : 0u) + (paths & LAST_DELTA ? 1u : 0u);
   const unsigned segments = 2 + deltas + more;
-  return (scene.lobes & LOBE_SPREAD) && (deltas == 0 || (scene.lobes & LOBE_DELTA)) &&
+  const unsigned spread = paths & ALL_NARROW ? LOBE_NARROW : LOBE_NARROW | LOBE_SPREAD;
+  return (scene.lobes & spread) && (deltas == 0 || (scene.lobes & LOBE_DELTA)) &&
          scene.max_depth.value_or(segments) >= segments;
 }
 
@@ -80,6 +87,9 @@ std::vector<std::string> describe(unsigned paths, unsigned lights, const SceneOp
   if (!lights || !occurs(paths, scene)) return {};
   constexpr const char* delta = "a mirror, smooth metal, glass or coat";
   const std::string names = names_of(lights);
+  if (paths & ALL_NARROW)
+    return {fmt::format("light of {} that first meets {}, on narrow gloss alone (L S+ N (N|S)* E)",
+                        names, delta)};
   if ((paths & FIRST_DELTA) && (paths & LAST_DELTA))
     return {fmt::format("caustics of {}, seen by way of {} (L S+ D S+ E)", names, delta)};
   if (paths & FIRST_DELTA)
@@ -89,23 +99,38 @@ std::vector<std::string> describe(unsigned paths, unsigned lights, const SceneOp
   return {fmt::format("anything lit by {}", names)};
 }
 
-/// Merging takes any light vertex near a D for the one that would hit it: every path with a D.
-bool merges(const Integrator& method) {
-  return method.wishes.has(INTG_MERGE);
+/// Merging takes any light vertex near a D for the one that would hit it: every path with a D,
+/// where eye paths go on from one to the next.
+bool merges_everywhere(const Integrator& method) {
+  return method.wishes.has(INTG_MERGE) &&
+         (method.wishes.has(INTG_CONNECT) || !method.wishes.has(INTG_NEE));
 }
 
 /// Lights of which the method never draws what it does not aim at.
 unsigned never_found(const Integrator& method, const SceneOptics& scene) {
-  if (merges(method)) return 0;
+  if (merges_everywhere(method)) return 0;
   return counts_chance_hits(method) ? scene.lights & ~HITTABLE : scene.lights;
 }
 
-uint scattering_lobes(const PackedScene& scene, const ::Material& material) {
+/// Whether paths of a class remain where those with all of `gained` in common are taken out.
+bool gains(unsigned gained, unsigned paths, const SceneOptics& scene) {
+  if (gained & (FIRST_DELTA | LAST_DELTA)) return occurs(paths, scene);
+  if ((gained & ALL_NARROW) && (scene.lobes & LOBE_SPREAD)) return occurs(paths, scene);
+  return (gained & ISOLATED_SPREAD) && occurs(paths, scene, 1);
+}
+
+uint packed_lobes(const PackedScene& scene, const ::Material& material) {
   if (material.kind != MATERIAL_MIX) return material.survive > 0.0f ? material.lobes : 0u;
   uint lobes = 0;
   for (uint i = 0; i < material.part_count; ++i)
-    lobes |= scattering_lobes(scene, scene.materials[material.first_part + i]);
-  return lobes;
+    lobes |= packed_lobes(scene, scene.materials[material.first_part + i]) & ~LOBE_NARROW;
+  return lobes | (lobes & LOBE_SPREAD ? material.lobes & LOBE_NARROW : 0u);
+}
+
+/// A surface's spread lobes are wide, or all narrow.
+uint scattering_lobes(const PackedScene& scene, const ::Material& material) {
+  const uint lobes = packed_lobes(scene, material);
+  return lobes & LOBE_NARROW ? lobes & ~LOBE_SPREAD : lobes;
 }
 
 }  // namespace
@@ -129,7 +154,7 @@ std::vector<std::string> unreachable_paths(const Integrator& method, const Scene
 }
 
 std::vector<std::string> chance_paths(const Integrator& method, const SceneOptics& scene) {
-  if (merges(method)) return {};
+  if (merges_everywhere(method)) return {};
   return describe(not_aimed_at(method), scene.lights & EMITTERS & ~never_found(method, scene),
                   scene);
 }
@@ -145,7 +170,7 @@ Seers seers_of_unreachable(const Integrator& method, const SceneOptics& scene,
     const unsigned dark = lights & never_found(other, scene);
     if (!dark || !occurs(rest, scene)) {
       seers.all.push_back(other.name);
-    } else if (dark != lights || (gained && occurs(paths, scene, gained == ISOLATED_SPREAD))) {
+    } else if (dark != lights || gains(gained, paths, scene)) {
       seers.some.push_back(other.name);
     }
   }
@@ -160,6 +185,12 @@ std::vector<std::string> blind_spots(const Integrator& method, const SceneOptics
   if (!seers.some.empty()) who += fmt::format("; {} can in part", join(seers.some));
   if (who.empty()) who = "; no method here can";
   std::vector<std::string> sentences;
+  const unsigned holds = merges_everywhere(method) ? LOBE_SPREAD | LOBE_NARROW : LOBE_SPREAD;
+  if (method.wishes.has(INTG_MERGE) && !(scene.lobes & holds))
+    sentences.push_back(fmt::format(
+        "'{}' merges nothing here: no surface scatters {}, so none holds photons", method.name,
+        holds & LOBE_NARROW ? "but by delta lobes" : fmt::format("wider than roughness {:g}",
+                                                                 std::sqrt(ALPHA_GATHER))));
   for (const std::string& what : unreachable_paths(method, scene))
     sentences.push_back(fmt::format("'{}' cannot see {}{}", method.name, what, who));
   return sentences;

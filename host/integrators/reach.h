@@ -14,7 +14,8 @@ namespace pellucid {
 /// lights that are black and materials that nothing is made of.
 struct SceneOptics {
   unsigned lights = 0;                ///< 1 << LIGHT_*: one of that kind shines
-  unsigned lobes = 0;                 ///< LOBE_*: a surface scatters so
+  unsigned lobes = 0;                 ///< LOBE_*: a surface scatters so. SPREAD: with wide ones;
+                                      ///< NARROW: with others
   std::optional<unsigned> max_depth;  ///< segments; absent = unlimited
 };
 SceneOptics optics_of(const PackedScene& scene, std::optional<unsigned> max_depth);
@@ -34,7 +35,8 @@ struct Seers {
 Seers seers_of_unreachable(const Integrator& method, const SceneOptics& scene,
                            const std::vector<Integrator>& among);
 
-/// Whole sentences for the end of a render: what `method` cannot see, and which of `among` can.
+/// Whole sentences for the end of a render: what `method` cannot see, and which of `among` can;
+/// and if it merges, whether any surface holds photons.
 std::vector<std::string> blind_spots(const Integrator& method, const SceneOptics& scene,
                                      const std::vector<Integrator>& among);
 

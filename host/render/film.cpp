@@ -195,4 +195,8 @@ Image film_atlas(const Film& film) {
   return strategy_atlas(film.layers, film.window.width, film.window.height, film.passes.count());
 }
 
+Image film_grid(const Film& film) {
+  return grid_picture(film.layers, film.window.width, film.window.height, film.passes.count());
+}
+
 }  // namespace pellucid

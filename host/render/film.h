@@ -84,4 +84,7 @@ Image film_image(const Film& film, bool variance, bool samples);
 /// The pyramid of strategies; the film has layers of them.
 Image film_atlas(const Film& film);
 
+/// The photon grid; the film has the layers that show it.
+Image film_grid(const Film& film);
+
 }  // namespace pellucid

@@ -59,6 +59,8 @@ struct Integrator {
                              ///< LAYER_LENGTH_MAX on any number
   uint layers = 0;           ///< set of layers that are kept (render/layers.h)
 
+  bool walks_from_lights() const { return wishes.has(INTG_SPLAT) || wishes.has(INTG_MERGE); }
+
   bool uses(Bundle bundle) const {
     for (const Pass& pass : passes)
       if (std::find(pass.bundles.begin(), pass.bundles.end(), bundle) != pass.bundles.end())

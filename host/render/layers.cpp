@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "image/atlas.h"
+#include "image/heat_map.h"
 
 namespace pellucid {
 namespace {
@@ -20,7 +22,8 @@ std::string strategy_name(uint s, uint depth) {
 
 void add_colour(const std::string& name, uint layer, std::vector<LayerChannel>& channels) {
   for (std::size_t c = 0; c < 3; ++c)
-    channels.push_back({fmt::format("{}.{}", name, "RGB"[c]), layer * LAYER_WORDS + 2 * c, false});
+    channels.push_back(
+        {fmt::format("{}.{}", name, "RGB"[c]), layer * LAYER_WORDS + 2 * c, LayerUnit::radiance});
 }
 
 /// Calls `visit(s, depth)` for every strategy that has layers of its own.
@@ -35,13 +38,36 @@ double sum_at(const Layers& layers, std::size_t word) {
   return double(high << 32 | low);
 }
 
+/// What a step of the channel stands for in the mean over so many passes.
+double unit_of(const LayerChannel& channel, const Layers& layers, std::uint64_t passes) {
+  const double mean = 1.0 / double(std::max<std::uint64_t>(passes, 1));
+  switch (channel.unit) {
+    case LayerUnit::radiance:
+      return mean / double(layers.scale);
+    case LayerUnit::count:
+      return mean;
+    case LayerUnit::radius:
+      return mean / double(LAYER_RADIUS_STEPS);
+    case LayerUnit::first:
+      break;
+  }
+  return 1.0;
+}
+
 }  // namespace
 
 const std::vector<LayerInfo>& layer_table() {
   static const std::vector<LayerInfo> table{
       {"length", LAYERS_LENGTH, "radiance by path length"},
       {"tech", LAYERS_TECH, "radiance by strategy, weighted and not"},
-      {"light-vertices", LAYERS_VERTICES, "light vertices that the camera sees, per pass"},
+      {"light-vertices", LAYERS_VERTICES, "light vertices that the camera sees, per pass",
+       INTG_SPLAT, "makes no light vertices"},
+      {"photons", LAYERS_PHOTONS, "photons that merge where the pixel first gathers them, per pass",
+       INTG_MERGE, "gathers no photons"},
+      {"cells", LAYERS_CELLS, "photons in the grid's cell there, in pass 0", INTG_MERGE,
+       "has no photon grid"},
+      {"radius", LAYERS_RADIUS, "radius of merging there, in pixels, mean of passes", INTG_MERGE,
+       "merges nothing"},
   };
   return table;
 }
@@ -108,8 +134,16 @@ std::vector<LayerChannel> layer_channels(uint set) {
     add_colour(name, layer_of_merge(set, k), channels);
     add_colour(name + ".unweighted", layer_of_merge_unweighted(set, k), channels);
   }
-  if (kinds & LAYERS_VERTICES)
-    channels.push_back({"light.vertices", layer_of_vertices(set) * LAYER_WORDS, true});
+  const auto add = [&](uint kind, const char* name, uint layer, uint word, LayerUnit unit) {
+    if (kinds & kind) channels.push_back({name, layer * LAYER_WORDS + word, unit});
+  };
+  const uint cells = layer_of_cells(set);
+  add(LAYERS_VERTICES, "light.vertices", layer_of_vertices(set), 0, LayerUnit::count);
+  add(LAYERS_PHOTONS, "photons", layer_of_photons(set), 0, LayerUnit::count);
+  add(LAYERS_CELLS, "cells.photons", cells, LAYER_CELL_PHOTONS, LayerUnit::first);
+  add(LAYERS_CELLS, "cells.bucket", cells, LAYER_CELL_BUCKET, LayerUnit::first);
+  add(LAYERS_CELLS, "cells.parity", cells, LAYER_CELL_PARITY, LayerUnit::first);
+  add(LAYERS_RADIUS, "radius", layer_of_radius(set), 0, LayerUnit::radius);
   return channels;
 }
 
@@ -117,8 +151,7 @@ std::vector<AovChannel> layer_images(const Layers& layers, std::uint64_t passes)
   std::vector<AovChannel> images;
   const std::size_t stride = layers.words_per_pixel();
   for (const LayerChannel& channel : layer_channels(layers.set)) {
-    const double unit = 1.0 / ((channel.count ? 1.0 : double(layers.scale)) *
-                               double(std::max<std::uint64_t>(passes, 1)));
+    const double unit = unit_of(channel, layers, passes);
     AovChannel image{channel.name, {}};
     image.data.reserve(layers.words.size() / stride);
     for (std::size_t word = channel.word; word < layers.words.size(); word += stride)
@@ -154,12 +187,23 @@ Image strategy_atlas(const Layers& layers, int width, int height, std::uint64_t 
   if (layer_kinds(set) & LAYERS_MERGE) {
     rows.push_back("merged");
     for (uint k = 1; k <= longest; ++k) {
-      const std::string label = fmt::format("at k={}", k);
+      const std::string label = fmt::format("k={}", k);
       add(true, longest + 1, k - 1, label, layer_of_merge(set, k));
       add(false, longest + 1, k - 1, label, layer_of_merge_unweighted(set, k));
     }
   }
   return draw_atlas(width, height, rows, cells);
+}
+
+Image grid_picture(const Layers& layers, int width, int height, std::uint64_t passes) {
+  PELLUCID_CHECK((layer_kinds(layers.set) & LAYERS_GRID) == LAYERS_GRID, "layers of the grid");
+  std::map<std::string, std::vector<float>> of;
+  for (AovChannel& image : layer_images(layers, passes)) of[image.name] = std::move(image.data);
+  return draw_heat_maps(
+      width, height,
+      {{"photons found, per pass", of.at("photons"), {}},
+       {"photons in the cell, pass 0", of.at("cells.photons"), of.at("cells.parity")},
+       {"radius in pixels", of.at("radius"), {}}});
 }
 
 }  // namespace pellucid

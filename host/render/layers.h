@@ -1,8 +1,9 @@
-// Layers of a picture on the host: which a method keeps, their sums, their channels, the atlas of
-// strategies. Numbers are in kernels/shared/layers.h.
+// Layers of a picture on the host: which a method keeps, their sums, their channels, and the
+// pictures drawn of them. Numbers are in kernels/shared/layers.h.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,10 @@ namespace pellucid {
 /// One entry of --aov that is made of layers.
 struct LayerInfo {
   std::string name;
-  uint kind;        ///< LAYERS_*
-  std::string doc;  ///< for --help
+  uint kind;                          ///< LAYERS_*
+  std::string doc;                    ///< for --help
+  std::optional<Feature> needs = {};  ///< of the method
+  std::string without = {};           ///< what methods without it do
 };
 /// In the order in which channels are written.
 const std::vector<LayerInfo>& layer_table();
@@ -50,19 +53,33 @@ class Layers {
   }
 };
 
+/// What a layer adds up.
+enum class LayerUnit {
+  radiance,  ///< in steps of the picture's own
+  count,
+  radius,  ///< pixels, in steps of 1 / LAYER_RADIUS_STEPS
+  first    ///< whole numbers of pass 0; all others are means over passes
+};
+
 /// Place of an EXR channel among the words of a pixel.
 struct LayerChannel {
   std::string name;
   std::size_t word;  ///< the low one
-  bool count;        ///< counts vertices; else radiance
+  LayerUnit unit;
 };
 std::vector<LayerChannel> layer_channels(uint set);
 
 /// Channels of means over so many passes.
 std::vector<AovChannel> layer_images(const Layers& layers, std::uint64_t passes);
 
+/// What the picture of the photon grid shows.
+constexpr uint LAYERS_GRID = LAYERS_PHOTONS | LAYERS_CELLS | LAYERS_RADIUS;
+
 /// The pyramid of strategies as a display picture, of layers that have LAYERS_TECH and pictures of
 /// this size.
 Image strategy_atlas(const Layers& layers, int width, int height, std::uint64_t passes);
+
+/// The photon grid as a display picture, of layers that have all of LAYERS_GRID.
+Image grid_picture(const Layers& layers, int width, int height, std::uint64_t passes);
 
 }  // namespace pellucid

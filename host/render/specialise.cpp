@@ -46,7 +46,7 @@ std::string prelude_of(const Specialisation& s) {
   };
   for (unsigned f = 0; f < FEATURE_COUNT; ++f)
     define(feature_table()[f].name, s.features.has(static_cast<Feature>(f)));
-  constexpr uint step = 32;  // scenes of similar depth share a program
+  constexpr uint step = 64;  // all but very large scenes share a program
   define("BVH_STACK", std::max(step, (s.stack_bound + step - 1) / step * step));
   define("SIMD_WIDTH", static_cast<unsigned>(s.simd_width));
   define("SIMD_BUILTINS", s.simd_builtins);

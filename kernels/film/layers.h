@@ -14,6 +14,7 @@ typedef struct LayerSink {
   GLOBAL uint* diag;
   uint set;
   float scale;
+  int first;  // what comes is of the first vertex that gathers photons
 } LayerSink;
 
 /// Of the pixel with this index in the tile.
@@ -23,7 +24,13 @@ INLINE LayerSink layer_sink(GLOBAL uint* layers, GLOBAL uint* diag, Launch launc
   sink.diag = diag;
   sink.set = launch.layer_set;
   sink.scale = launch.layer_scale;
+  sink.first = 0;
   return sink;
+}
+
+/// Adds a whole number to a word of the layer.
+INLINE void layer_put_count(LayerSink sink, uint layer, uint word, ulong count) {
+  splat_word(sink.words + layer * LAYER_WORDS + word, sink.diag, count, DIAG_layer_saturated);
 }
 
 INLINE void layer_put_channel(LayerSink sink, GLOBAL uint* word, float value) {
@@ -57,6 +64,8 @@ INLINE void layer_add(LayerSink sink, real3 value, real weight, uint s, uint dep
 /// Adds what a merge at eye vertex k found as a path of `depth` segments.
 INLINE void layer_merge(LayerSink sink, real3 value, real weight, uint k, uint depth) {
   uint kinds = layer_kinds(sink.set);
+  if (sink.first && (kinds & LAYERS_PHOTONS))
+    layer_put_count(sink, layer_of_photons(sink.set), 0u, 1ul);
   if (kinds & LAYERS_LENGTH) layer_put(sink, layer_of_length(sink.set, depth), value * weight);
   if (!(kinds & LAYERS_MERGE)) return;
   layer_put(sink, layer_of_merge(sink.set, k), value * weight);
@@ -74,8 +83,22 @@ INLINE void layer_splat(GLOBAL uint* layers, GLOBAL uint* diag, Launch launch, i
 INLINE void layer_vertex(GLOBAL uint* layers, GLOBAL uint* diag, Launch launch, int x, int y) {
   if (!(layer_kinds(launch.layer_set) & LAYERS_VERTICES) || !film_in_tile(launch, x, y)) return;
   LayerSink sink = layer_sink(layers, diag, launch, film_pixel(launch, x, y));
-  splat_word(sink.words + layer_of_vertices(sink.set) * LAYER_WORDS, diag, 1ul,
-             DIAG_layer_saturated);
+  layer_put_count(sink, layer_of_vertices(sink.set), 0u, 1ul);
+}
+
+/// Paints the pixel by the cell that its first gathering vertex lies in.
+INLINE void layer_cell(LayerSink sink, uint photons, uint bucket, uint parity) {
+  uint layer = layer_of_cells(sink.set);
+  layer_put_count(sink, layer, LAYER_CELL_PHOTONS, photons);
+  layer_put_count(sink, layer, LAYER_CELL_BUCKET, bucket);
+  layer_put_count(sink, layer, LAYER_CELL_PARITY, parity);
+}
+
+/// Adds the radius of merging at that vertex, in pixels.
+INLINE void layer_radius(LayerSink sink, float pixels) {
+  if (!(layer_kinds(sink.set) & LAYERS_RADIUS)) return;
+  ulong steps = splat_steps(pixels, LAYER_RADIUS_STEPS, sink.diag, DIAG_layer_saturated);
+  layer_put_count(sink, layer_of_radius(sink.set), 0u, steps);
 }
 
 #endif

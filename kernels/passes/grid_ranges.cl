@@ -5,6 +5,7 @@
 #include "passes/bundles.h"
 #include "transport/stored_vertex.h"
 
+#if INTG_MERGE
 __kernel void grid_ranges(LIGHT_VERTEX_PARAMS GRID_PARAMS const Launch launch) {
   uint i = (uint)get_global_id(0);
   if (i >= launch.photon_count) return;
@@ -19,3 +20,4 @@ __kernel void grid_ranges(LIGHT_VERTEX_PARAMS GRID_PARAMS const Launch launch) {
   photon_positions[i] = (F4)(p.x, p.y, p.z, 0.0f);
   photons[i] = photon_of(&vertices[slot]);
 }
+#endif

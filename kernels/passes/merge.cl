@@ -1,8 +1,9 @@
 // merge: gathers the light vertices around every vertex of a pixel's eye path.
 // Reads: scene, eye vertices with their order, photon_positions, photons, grid_cells. Writes:
-// samples [pixels of the tile] (adds), diag. Domain: pixels of the slice. Atomics: diag only. Next:
-// film_add. Flags: INTG_CONNECT, INTG_COMPACT.
+// samples [pixels of the tile] (adds), layers, diag. Domain: pixels of the slice. Atomics: layers,
+// diag. Next: film_add. Flags: INTG_CONNECT, INTG_COMPACT, INTG_LAYERS.
 #include "passes/bundles.h"
+#if INTG_MERGE
 #include "transport/merge.h"
 
 /// Sum over the photons around one vertex.
@@ -33,6 +34,23 @@ INLINE real3 merge_around(PRIVATE const SceneData* scene, Launch launch,
   }
 }
 
+#if INTG_LAYERS
+/// Paints the pixel by the cell around p as it is in the first pass, when cells are largest: they
+/// have other borders in every pass.
+INLINE void paint_cell(Launch launch, __global const F4* photon_positions,
+                       __global const uint* grid_cells, real3 p, LayerSink sink) {
+  if (!(layer_kinds(sink.set) & LAYERS_CELLS) || launch.iteration > 0u) return;
+  GridCell cell = grid_cell(launch, p);
+  uint bucket = grid_bucket(launch, cell), own = 0u;
+  uint begin = grid_cells[2 * bucket], end = grid_cells[2 * bucket + 1u];
+  for (uint i = begin; i < end; ++i) {
+    GridCell at = grid_cell(launch, load3(photon_positions[i]));
+    if (at.x == cell.x && at.y == cell.y && at.z == cell.z) ++own;
+  }
+  layer_cell(sink, own, end - begin, 1u + ((uint)(cell.x ^ cell.y ^ cell.z) & 1u));
+}
+#endif
+
 __kernel void merge(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARAMS GRID_PARAMS
 #if INTG_LAYERS
                         LAYER_PARAMS
@@ -46,11 +64,17 @@ __kernel void merge(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARA
   for (uint i = eye_first[index]; i < eye_first[index + 1u]; ++i) {
     __global const StoredVertex* eye_at = (__global const StoredVertex*)eye_vertices;
     EndVertex eye = vertex_unpack(&scene_data, eye_at[eye_order[i]], 0);
+#if INTG_LAYERS
+    LayerSink sink = layer_sink(layers, diag, launch, pixel);
+    sink.first = i == eye_first[index];
+    if (sink.first) paint_cell(launch, photon_positions, grid_cells, eye.v.surface.p, sink);
+#endif
     sum += merge_around(&scene_data, launch, photon_positions, photons, grid_cells,
 #if INTG_LAYERS
-                        layer_sink(layers, diag, launch, pixel),
+                        sink,
 #endif
                         &eye);
   }
   samples[pixel] += (float4)(sum, 0.0f);
 }
+#endif

@@ -1,8 +1,8 @@
 // probe_grid: what merging finds around a list of points, for the test that these are the photons
 // within the radius, each once.
-// Reads: grid_pairs (sorted), photon_positions, grid_cells, points [n]. Writes: found [n]: how many, and the
-// sums of their places in light_order, of the squares and of the cubes. Domain: n points. Atomics:
-// none. Next: nothing.
+// Reads: grid_pairs (sorted), photon_positions, grid_cells, points [n]. Writes: found [n]: how
+// many, and the sums of their places in light_order, of the squares and of the cubes. Domain: n
+// points. Atomics: none. Next: nothing.
 #include "passes/bundles.h"
 #include "transport/grid.h"
 

@@ -1,5 +1,6 @@
-// Layers of a picture: radiance kept apart by path length and by strategy (s, t). How they are
-// numbered, for kernels that add to them and for the host that names them.
+// Layers of a picture: radiance kept apart by path length and by strategy (s, t), and what pixels
+// show of the data behind it. How they are numbered, for kernels that add to them and for the host
+// that names them.
 #ifndef PELLUCID_SHARED_LAYERS_H
 #define PELLUCID_SHARED_LAYERS_H
 
@@ -14,6 +15,19 @@
 #define LAYERS_TECH 2u      // by strategy, weighted (one more for longer paths) and unweighted
 #define LAYERS_VERTICES 4u  // how many light vertices the camera sees in a pixel
 #define LAYERS_MERGE 8u     // with LAYERS_TECH: merges by eye vertex, weighted and unweighted
+// Of the first vertex in a pixel that gathers photons:
+#define LAYERS_PHOTONS 16u  // how many it merges with
+#define LAYERS_CELLS \
+  32u  // pass 0: photons in its cell, in the cell's bucket, parity (LAYER_CELL_*)
+#define LAYERS_RADIUS 64u  // the radius of merging in widths of a pixel
+
+// Words of a pixel's layer of cells. Parity is 1 or 2, as the colours of a chess board are in
+// space, so that neighbours differ; 0 where there is no vertex.
+#define LAYER_CELL_PHOTONS 0u
+#define LAYER_CELL_BUCKET 2u
+#define LAYER_CELL_PARITY 4u
+/// Radii count steps of 2^-20 of a pixel.
+#define LAYER_RADIUS_STEPS 1048576.0f
 
 /// Longest path length that may have layers of its own: some 1000 strategies.
 #define LAYER_LENGTH_MAX 30u
@@ -48,7 +62,8 @@ INLINE uint layer_strategies_below(uint set, uint depth) {
 }
 
 // Order: lengths 1 .. N, longer | strategies weighted, longer | strategies unweighted | merges at
-// eye vertices 1 .. N weighted | unweighted | vertices. Merges farther out are among the longer.
+// eye vertices 1 .. N weighted | unweighted | vertices | photons | cells | radius. Merges farther
+// out are among the longer.
 
 INLINE uint layer_of_length(uint set, uint depth) {
   uint longest = layer_longest(set);
@@ -83,8 +98,17 @@ INLINE uint layer_of_merge_unweighted(uint set, uint k) {
 INLINE uint layer_of_vertices(uint set) {
   return layer_first_merge(set) + (layer_kinds(set) & LAYERS_MERGE ? 2u * layer_longest(set) : 0u);
 }
-INLINE uint layer_count(uint set) {
+INLINE uint layer_of_photons(uint set) {
   return layer_of_vertices(set) + (layer_kinds(set) & LAYERS_VERTICES ? 1u : 0u);
+}
+INLINE uint layer_of_cells(uint set) {
+  return layer_of_photons(set) + (layer_kinds(set) & LAYERS_PHOTONS ? 1u : 0u);
+}
+INLINE uint layer_of_radius(uint set) {
+  return layer_of_cells(set) + (layer_kinds(set) & LAYERS_CELLS ? 1u : 0u);
+}
+INLINE uint layer_count(uint set) {
+  return layer_of_radius(set) + (layer_kinds(set) & LAYERS_RADIUS ? 1u : 0u);
 }
 
 #endif

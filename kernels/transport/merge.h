@@ -1,5 +1,5 @@
 // Merging: the light vertices within a radius of an eye path's vertex, taken for light that arrives
-// at it [Georgiev12], [Hachisuka09].
+// at it [Georgiev12], [Hachisuka09], [Vorba11].
 #ifndef PELLUCID_TRANSPORT_MERGE_H
 #define PELLUCID_TRANSPORT_MERGE_H
 

@@ -117,18 +117,32 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
 #endif
 }
 
+#if INTG_RADIUS
+/// At the first vertex kept: the radius over the width that a pixel has after so long a path.
+INLINE void walk_put_radius(Launch launch, PRIVATE Walk* walk) {
+  if (walk->spread == REAL(0.0)) return;
+  layer_radius(walk->layers, (float)((real)launch.radius / (walk->spread * walk->length)));
+  walk->spread = REAL(0.0);
+}
+#endif
+
 /// Keeps the vertex for connections and merging, as far as path length allows any.
 INLINE void walk_keep(PRIVATE VertexStore* store, Launch launch, uint depth,
                       PRIVATE const Vertex* v, PRIVATE Walk* walk) {
 #if INTG_PARTIALS
   walk_arrive(v, walk);
 #endif
+#if INTG_VERTICES
 #if INTG_GATHER
-  if (vertex_gathers(v) && depth + 1u <= launch.max_depth)
-    vertex_store(store, v, walk->beta, partials_start(REAL(0.0), REAL(0.0)), depth);
-#elif INTG_VERTICES
-  if (!bsdf_is_delta(v->material) && depth + (INTG_MERGE ? 1u : 2u) <= launch.max_depth)
-    vertex_store(store, v, walk->beta, walk->partials, depth);
+  if (!vertex_gathers(v)) return;
+#else
+  if (bsdf_is_delta(v->material)) return;
+#endif
+  if (depth + (INTG_MERGE ? 1u : 2u) > launch.max_depth) return;
+  vertex_store(store, v, walk->beta, walk->partials, depth);
+#if INTG_RADIUS
+  walk_put_radius(launch, walk);
+#endif
 #endif
 }
 
@@ -158,6 +172,9 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
 #if INTG_LAYERS
   walk.layers = layers;
 #endif
+#if INTG_RADIUS
+  walk.spread = REAL(1.0) / r_sqrt(pdf_camera);
+#endif
   uint limit = depth_limit(launch);
   for (uint depth = 1; depth <= limit; ++depth) {
     ++walk.rays;
@@ -167,6 +184,9 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
       break;
     }
     Surface surface = surface_at(scene, walk.ray, hit);
+#if INTG_RADIUS
+    walk.length += length3(surface.p - walk.p_prev);
+#endif
     walk_emission(scene, launch, &surface, depth, &walk);
     if (depth == limit) {
       if (launch.max_depth > limit) diag_count(scene, DIAG_path_stuck);

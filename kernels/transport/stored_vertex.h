@@ -126,10 +126,10 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
 }
 #endif
 
+#if INTG_MERGE
 /// What merging needs of a light vertex in memory, beside its position.
 INLINE Photon photon_of(GLOBAL const StoredVertex* s) {
   Photon photon;
-#if INTG_MERGE
 #if INTG_COMPACT
   photon.wi_dVCM = to_f4(octahedral_unpack(s->wo), (real)float_from_bits(s->dVCM & 0xffffff00u));
   photon.beta_dVC = to_f4(rgbe_unpack(s->beta), (real)float_from_bits(s->dVC & 0xffffff00u));
@@ -144,9 +144,9 @@ INLINE Photon photon_of(GLOBAL const StoredVertex* s) {
   photon.ng_x = (float)ng.x;
   photon.ng_y = (float)ng.y;
   photon.ng_z = (float)ng.z;
-#endif
   return photon;
 }
+#endif
 
 /// Where a vertex in memory is.
 INLINE real3 stored_position(GLOBAL const StoredVertex* s) {

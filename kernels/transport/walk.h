@@ -15,6 +15,8 @@
 /// `sppm`: the eye path gathers at its first vertex that scatters widely, and goes on from there
 /// through delta lobes alone.
 #define INTG_GATHER (INTG_MERGE && !INTG_PARTIALS)
+/// Eye paths tell how many pixels wide the radius of merging is.
+#define INTG_RADIUS (INTG_MERGE && INTG_LAYERS)
 
 typedef struct Walk {
   Ray ray;
@@ -28,6 +30,10 @@ typedef struct Walk {
 #if INTG_LAYERS
   LayerSink layers;  // of the pixel of a walk from the camera
 #endif
+#if INTG_RADIUS
+  real length;  // of the path from the camera
+  real spread;  // width of a pixel's beam at a length of 1; 0 once a vertex is kept
+#endif
   uint rays;
 } Walk;
 
@@ -40,6 +46,9 @@ INLINE Walk walk_start(Ray ray, real3 beta) {
   walk.pdf_w = REAL(0.0);
 #if INTG_VERTICES
   walk.partials = partials_start(REAL(0.0), REAL(0.0));
+#endif
+#if INTG_RADIUS
+  walk.length = walk.spread = REAL(0.0);
 #endif
   walk.rays = 0;
   return walk;

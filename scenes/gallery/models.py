@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the models of the scenes `hidden-light-room` (lamp.obj, sconce.obj) and `keyhole`
-(keyhole-wall.obj, keyhole-plate.obj). Front sides are outwards; lengths are metres.
+"""Writes the models of the scenes `hidden-light-room` (lamp.obj, sconce.obj), `keyhole`
+(keyhole-wall.obj, keyhole-plate.obj) and `mixed-room` (lamp.obj and shade.obj). Front sides are
+outwards; lengths are metres.
 
 Usage: models.py [FOLDER]   (default: beside this script)
 """
@@ -86,6 +87,9 @@ def main(folder):
     sconce = [(0.12, -0.16), (0.12, 0.16), (0.112, 0.16), (0.112, -0.16), (0.12, -0.16)]
     write_obj(folder / "sconce.obj", "Half a tube to stand before a wall at z = 0.",
               *lathe(sconce, 24, -93.0, 186.0))
+    shade = [(0, 0.095), (0.026, 0.095), (0.115, -0.06), (0.12, -0.06), (0.03, 0.1), (0, 0.1)]
+    write_obj(folder / "shade.obj", "A shade, open below, for a light at the origin.",
+              *lathe(shade, 48))
     write_obj(folder / "keyhole-wall.obj", "A wall with a keyhole.",
               *plate(3.3, 2.5, (0, -0.1), -0.05, 0.05, keyhole))
     write_obj(folder / "keyhole-plate.obj", "A metal plate around the keyhole.",

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Draws the images of the scene `textures`: uv-grid.png, whose cells are labelled A1 (bottom left) to
-H8, and planks.png, wooden planks that repeat without a seam.
+H8, and planks.png, wooden planks that repeat without a seam; and of `pool`: tiles.png, four by four
+tiles that do so too.
 
 Usage: textures.py [FOLDER]   (default: beside this script)
 """
@@ -70,6 +71,21 @@ def planks(count=4, size=256):
     return rows
 
 
+def tiles(count=4, size=32):
+    """Grey, so that a material gives them their colour; no two of the same shade."""
+    generator = random.Random(3)
+    shades = [[generator.uniform(0.82, 1.0) for _ in range(count)] for _ in range(count)]
+    rows = []
+    for y in range(count * size):
+        row = []
+        for x in range(count * size):
+            joint = min(x % size, y % size) < 2
+            row.append((int(255 * (0.55 if joint else shades[y // size][x // size])),) * 3)
+        rows.append(row)
+    return rows
+
+
 folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parent
 write_png(folder / "uv-grid.png", uv_grid())
 write_png(folder / "planks.png", planks())
+write_png(folder / "tiles.png", tiles())

@@ -60,7 +60,8 @@ def test_bash():
     check(complete("render", "--tonemap", "=") == ["srgb", "filmic", "none"], "right after =")
     check(complete("render", "--mis", "p") == ["power"], "choices by their beginning")
     aovs = complete("render", "--aov", "")
-    check({"variance", "samples", "length", "tech", "light-vertices", "Z", "Ng", "id.object"} <= set(aovs),
+    check({"variance", "samples", "length", "tech", "light-vertices", "photons", "cells",
+           "radius", "Z", "Ng", "id.object"} <= set(aovs),
           "AOVs", aovs)
     check(complete("render", "--aov", "le") == ["length"], "an AOV by its beginning")
     check(complete("kernels", "x", "--features", "") == ["auto", "all"], "LIST is no word to type")

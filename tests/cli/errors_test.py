@@ -87,6 +87,8 @@ def test_usage():
             quick_expect(2, [*FOREVER[:1], *([] if option == "--spp" else FOREVER[1:]), "-q",
                              option, value], option.strip("-")[:4])
         expect(2, ["room.json", option], option)
+    for more in ([], ["--dry-run"]):
+        expect(2, ["room.json", "-i", "sppm", "--radius", "1e-9", *more], "--radius 1e-09", "only from", "ask for")
 
 
 def test_memory():

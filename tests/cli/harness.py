@@ -42,7 +42,7 @@ def check(condition, what, *details):
 
 def run(*arguments, **options):
     """Runs pellucid in the scratch folder; returns (exit code, stdout, stderr)."""
-    options = {"stdout": subprocess.PIPE, "timeout": 40, **options}
+    options = {"stdout": subprocess.PIPE, "timeout": 120, **options}
     try:
         done = subprocess.run([PELLUCID, *arguments], text=True, errors="replace",
                               stderr=subprocess.PIPE, check=False, **options)
@@ -141,10 +141,11 @@ class Terminal:
 
 
 def run_tests(tests):
-    """Runs every test_* of a module in a scratch folder with a kernel cache of its own."""
+    """Runs every test_* of a module in a scratch folder. Kernels are cached where the caller says, so that
+    tests share them (the cache knows a program by its source and options), or in the scratch folder."""
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        os.environ["POCL_CACHE_DIR"] = os.path.join(folder, "pocl")
+        os.environ.setdefault("POCL_CACHE_DIR", os.path.join(folder, "pocl"))
         for name in ("PELLUCID_DEVICE", "NO_COLOR", "LD_DEBUG"):
             os.environ.pop(name, None)
         write_text("room.json", json.dumps(ROOM))

@@ -85,6 +85,31 @@ def test_atlas():
     check(document([*QUICK, "--dry-run", "--atlas", "b.png"])["outputs"][-1] == "b.png", "planned")
 
 
+def test_grid():
+    """Photons, cells and radius: channels, the picture, and the same out of two halves."""
+    grid = ["room.json", "-q", "--deterministic", "-i", "sppm", "--max-depth", "5"]
+    expect(0, [*grid, "--spp", "6", "-o", "grid.exr", "--grid", "grid.png", "--atlas", "atlas.png"])
+    channels = document(["info", "grid.exr"])["channels"]
+    check(channels[-5:] == ["photons", "cells.photons", "cells.bucket", "cells.parity", "radius"],
+          "--grid implies them", channels)
+    mean = means("grid.exr")
+    for name in channels[-5:]:
+        check(mean[name] > 0, f"{name} shows something", mean)
+    check(mean["cells.parity"] <= 2, "of pass 0 alone", mean)
+    drawn = document(["info", "grid.png"])
+    check(drawn["width"] > 5 * WIDTH and drawn["height"] > 15 * HEIGHT, "three pictures", drawn)
+    halves = [*grid, "--aov", "photons,cells,radius,tech", "-o", "x.exr"]
+    expect(0, [*halves, "--passes", "0:2", "--checkpoint", "a.ckpt"])
+    expect(0, [*halves, "--passes", "2:6", "--checkpoint", "b.ckpt"])
+    expect(0, ["merge", "b.ckpt", "a.ckpt", "-o", "halves.exr", "--grid", "halves.png", "--deterministic"])
+    check(read_bytes("grid.exr") == read_bytes("halves.exr"), "merged is uninterrupted")
+    check(read_bytes("grid.png") == read_bytes("halves.png"), "and so is the grid")
+    for bad in ("a.ckpt", "halves.exr", "x.exr"):
+        expect(2, ["merge", "a.ckpt", "b.ckpt", "-o", "halves.exr", "--grid", bad], "--grid")
+    expect(0, [*grid, "--passes", "0:1", "--checkpoint", "bare.ckpt", "-o", "x.exr"])
+    expect(2, ["merge", "bare.ckpt", "-o", "x.exr", "--grid", "x.png"], "--grid", "photons,cells,radius")
+
+
 def test_usage():
     expect(2, [*QUICK, "--aov-length", "3"], "--aov-length", "--aov tech", "--atlas")
     expect(2, [*QUICK, "--aov-length", "3", "--aov", "Z"], "--aov-length")
@@ -93,6 +118,12 @@ def test_usage():
     expect(2, [*QUICK, "--aov", "lenght"], "Did you mean 'length'?")
     expect(2, [*QUICK, "--aov", "light-vertices"], "'path' makes no light vertices",
            "light, bdpt")
+    for method in ("path", "light", "bdpt"):
+        for aov in ("photons", "cells", "radius"):
+            expect(2, [*QUICK, "-i", method, "--aov", aov], f"--aov {aov}: '{method}'", "sppm", "vcm")
+        expect(2, [*QUICK, "-i", method, "--grid", "g.png"], f"--grid: '{method}'", "sppm", "vcm")
+    expect(2, [*QUICK, "-i", "vcm", "--grid", "g.exr"], "--grid 'g.exr'")
+    expect(2, [*QUICK, "-i", "vcm", "--grid", "g.png", "--atlas", "./g.png"], "same file")
 
 
 def test_memory():

@@ -4,16 +4,18 @@
 Usage: reach_test.py path/to/pellucid   (exit 0: all checks hold)
 """
 import json
+import os
 import sys
 
 sys.dont_write_bytecode = True
 # pylint: disable=wrong-import-position
-from harness import check, document, expect, read_json, run_tests, write_text
+from harness import SOURCE, check, document, expect, read_json, run_tests, write_text
 
-# Of point lights, where there are spread and delta surfaces; and of emitters, by chance alone.
+# Of point lights, where there are spread and delta surfaces; and of emitters, by chance alone. What
+# merges sees all there is.
 UNSEEN = {"naive": "anything lit by ", "reference": "anything lit by ",
           "nee": "(L S+ D ... E)", "path": "(L S+ D ... E)", "light": "(L ... D S+ E)",
-          "bdpt": "(L S+ D S+ E)"}
+          "bdpt": "(L S+ D S+ E)", "sppm": None, "bpm": None, "vcm": None}
 EMITTER = {"type": "sphere", "material": "grey", "center": [1, 2, 0], "radius": 0.2,
            "emission": {"radiance": 5}}
 POINT = {"type": "point", "position": [1, 2, 0], "intensity": 3}
@@ -44,9 +46,12 @@ def test_info():
     text, _ = expect(0, ["info", name])
     for method, facts in methods.items():
         what = facts["unreachable"]
+        check(facts["by_chance"] == [], f"{method}: chance finds no point", facts)
+        if UNSEEN[method] is None:
+            check(what == [], f"{method} sees all", facts)
+            continue
         check(len(what) == 1 and UNSEEN[method] in what[0] and "point lights" in what[0],
               f"{method} names the class", facts)
-        check(facts["by_chance"] == [], f"{method}: chance finds no point", facts)
         check(f"            cannot see {what[0]}\n" in text, f"{method} as text", text)
     for depth, blind in ((1, ()), (2, ("naive", "reference")),
                          (3, ("naive", "reference", "nee", "path", "light"))):
@@ -69,9 +74,23 @@ def test_no_false_alarms():
 
 def test_by_chance():
     for method, facts in methods_of(scene("emitter", shapes=[EMITTER])).items():
+        if UNSEEN[method] is None:
+            check(facts["by_chance"] == facts["unreachable"] == [], f"{method} sees all", facts)
+            continue
         key, other = ("by_chance", "unreachable")[::-1 if method == "light" else 1]
         check(len(facts[key]) == 1 and UNSEEN[method] in facts[key][0] and
               "emitting surfaces" in facts[key][0] and facts[other] == [], method, facts)
+
+
+def test_shipped_scenes():
+    """Of what the scenes for merging were made to show, other methods find less or nothing."""
+    for name, key in (("pool", "unreachable"), ("mirror-caustic", "unreachable"),
+                      ("glass-lamp", "by_chance"), ("mixed-room", "by_chance")):
+        methods = methods_of(os.path.join(SOURCE, f"scenes/gallery/{name}.json"))
+        for method, facts in methods.items():
+            light = method == "light"  # its camera meets no lamp by chance
+            blind = facts["unreachable" if light else key]
+            check(bool(blind) == (UNSEEN[method] is not None), f"{method} in {name}", facts)
 
 
 def test_render():

@@ -13,7 +13,7 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 KERNELS = ROOT / "kernels"
-FLAGS = re.findall(r"X\((\w+),", (KERNELS / "shared/features.h").read_text())
+FLAGS = re.findall(r"X\(((?:FEAT|INTG)_\w+),", (KERNELS / "shared/features.h").read_text())
 EFFECTS = [f for f in FLAGS if f.startswith("FEAT_")]
 METHODS = [[], ["INTG_NEE", "INTG_SOBOL"], ["INTG_NEE", "INTG_MIS", "INTG_SOBOL", "INTG_FILTER"],
            ["INTG_NEE", "INTG_MIS", "INTG_LAYERS"],
@@ -25,6 +25,18 @@ METHODS = [[], ["INTG_NEE", "INTG_SOBOL"], ["INTG_NEE", "INTG_MIS", "INTG_SOBOL"
 WARNINGS = ["-Wall", "-Wextra", "-Werror", "-Wdouble-promotion", "-Wundef", "-Wconversion",
             "-Wno-sign-conversion", "-Wno-implicit-int-float-conversion", "-Wno-unused-parameter",
             "-Wno-unused-function"]
+
+
+def flags_of(path, seen):
+    """Flags that a file or what it includes mentions: the others cannot change what is compiled."""
+    if path in seen:
+        return set()
+    seen.add(path)
+    text = path.read_text()
+    found = set(FLAGS) & set(re.findall(r"\w+", text))
+    for name in re.findall(r'#include "(.+)"', text):
+        found |= flags_of(KERNELS / name, seen)
+    return found
 
 
 def compile_pass(name, triple, on, width):
@@ -44,7 +56,12 @@ for path in sorted((KERNELS / "passes").glob("*.cl")):
     runs = [("spir64", effects, method, 16) for effects, method in itertools.product(sets, METHODS)]
     # 32-bit pointers and no 64-bit atomics, for every method.
     runs += [("spir", sets[0], method, 8) for method in METHODS]
+    flags, seen_sets = flags_of(path, set()), set()
     for triple, effects, method, width in runs:
+        key = (triple, width, frozenset(flags & (effects | set(method))))
+        if key in seen_sets:
+            continue
+        seen_sets.add(key)
         count += 1
         done = compile_pass(path, triple, effects | set(method), width)
         if done.returncode:

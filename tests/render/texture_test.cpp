@@ -90,6 +90,8 @@ TEST(Textures, WhiteIsNoTextureBitForBit) {
   for (Material& material : plain.materials) material.texture.reset();
   for (const char* method : methods)
     for (bool specialised : {false, true}) {
+      // Two programs more for each method; all look textures up in the same code.
+      if (specialised && method != std::string("path")) continue;
       Build build;
       build.method = method;
       build.width = build.height = 24;

@@ -30,6 +30,7 @@ Build build_of(const char* method = "bdpt") {
   Build b;
   b.method = method;
   b.width = b.height = side;
+  b.sampler = Sampler::sobol;  // as the program and exact_test.cpp have it: the same kernels
   b.filter = PixelFilter::gaussian;
   return b;
 }

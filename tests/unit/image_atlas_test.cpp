@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "image/canvas.h"
 #include "image/tonemap.h"
 
 namespace pellucid {
@@ -89,8 +90,9 @@ TEST(Atlas, any_size) {
 }
 
 TEST(Atlas, letters) {
-  for (const char* text : {"0123456789", "+- .=", "length", "longer", "all", "weighted",
-                           "unweighted", "s=0 t=2", "+12.5 EV"})
+  for (const char* text :
+       {"0123456789", "+- .=", "length", "longer", "all", "weighted", "unweighted", "s=0 t=2",
+        "+12.5 EV", "merged", "k=2", "photons in the cell, pass 0", "radius in pixels", "5e-06"})
     EXPECT_TRUE(can_draw(text)) << text;
   EXPECT_FALSE(can_draw("?"));
 }

@@ -22,26 +22,37 @@ std::vector<Integrator> methods() {
           {"path", "", {INTG_NEE, INTG_MIS}, true, {}},
           {"light", "", {INTG_SPLAT}, false, {}},
           {"unconnected", "", {INTG_NEE, INTG_SPLAT, INTG_MIS}, true, {}},
-          {"bdpt", "", {INTG_NEE, INTG_SPLAT, INTG_CONNECT, INTG_MIS}, true, {}}};
+          {"bdpt", "", {INTG_NEE, INTG_SPLAT, INTG_CONNECT, INTG_MIS}, true, {}},
+          {"sppm", "", {INTG_NEE, INTG_MIS, INTG_MERGE}, true, {}},
+          {"bpm", "", {INTG_MERGE}, true, {}},
+          {"vcm", "", {INTG_NEE, INTG_SPLAT, INTG_CONNECT, INTG_MIS, INTG_MERGE}, true, {}}};
 }
 
 constexpr unsigned DELTA_LIGHTS = 1u << LIGHT_POINT | 1u << LIGHT_SPOT | 1u << LIGHT_DIRECTIONAL;
 
-/// Scatterings from the light to the camera; 'D' or 'S'.
+/// Scatterings from the light to the camera: 'D', 'N' (one whose lobes are all narrow) or 'S'.
 using Word = std::string;
 
-/// Those with a D, of lobes that the scene has, no longer than allowed. 7 letters hold the shortest
-/// words of each combination of ends and neighbours, and room beyond.
+/// Those with a D or N, of lobes that the scene has, no longer than allowed. 7 letters hold the
+/// shortest words of each combination of ends and neighbours, and room beyond.
 std::vector<Word> words(const SceneOptics& scene) {
   std::vector<Word> all{""}, result;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Word word = all[i];
-    if (word.find('D') != Word::npos) result.push_back(word);
+    if (word.find_first_of("DN") != Word::npos) result.push_back(word);
     if (word.size() + 1 >= std::min(scene.max_depth.value_or(8), 8u)) continue;
     if (scene.lobes & LOBE_SPREAD) all.push_back(word + 'D');
+    if (scene.lobes & LOBE_NARROW) all.push_back(word + 'N');
     if (scene.lobes & LOBE_DELTA) all.push_back(word + 'S');
   }
   return result;
+}
+
+/// Whether merging draws such paths. With NEE and without connections (`sppm`) it is at wide lobes
+/// alone.
+bool merges(const Integrator& m, const Word& word) {
+  const bool everywhere = m.wishes.has(INTG_CONNECT) || !m.wishes.has(INTG_NEE);
+  return m.wishes.has(INTG_MERGE) && word.find_first_of(everywhere ? "DN" : "D") != Word::npos;
 }
 
 /// Whether the strategy that draws s vertices from the light draws such paths: walks do what they
@@ -49,16 +60,18 @@ std::vector<Word> words(const SceneOptics& scene) {
 bool draws(const Integrator& m, unsigned light, const Word& word, std::size_t s) {
   const std::size_t t = word.size() + 2 - s;
   const bool nee = m.wishes.has(INTG_NEE), splat = m.wishes.has(INTG_SPLAT);
-  if (s == 0) return !(light & DELTA_LIGHTS) && (nee || !splat || word.find('D') == Word::npos);
+  if (s == 0)
+    return !(light & DELTA_LIGHTS) && (nee || !splat || word.find_first_of("DN") == Word::npos);
   if (t == 0 || (s == 1 && t == 1)) return false;
   if (s == 1 && !nee) return false;
   if (t == 1 && !splat) return false;
   if (s > 1 && t > 1 && !m.wishes.has(INTG_CONNECT)) return false;
-  const bool light_end = s == 1 || word[s - 2] == 'D', eye_end = t == 1 || word[s - 1] == 'D';
+  const bool light_end = s == 1 || word[s - 2] != 'S', eye_end = t == 1 || word[s - 1] != 'S';
   return light_end && eye_end;
 }
 
 bool aims(const Integrator& m, unsigned light, const Word& word) {
+  if (merges(m, word)) return true;
   for (std::size_t s = 1; s <= word.size() + 1; ++s)
     if (draws(m, light, word, s)) return true;
   return false;
@@ -103,7 +116,8 @@ Truth brute_force(const Integrator& method, const SceneOptics& scene) {
 TEST(Reach, AgreesWithBruteForceOverAllPaths) {
   int unreachable = 0, by_chance = 0;
   for (unsigned lights = 0; lights < 1u << (LIGHT_SPOT + 1); ++lights)
-    for (unsigned lobes : {0u, LOBE_DELTA, LOBE_SPREAD, LOBE_DELTA | LOBE_SPREAD})
+    for (unsigned lobes : {0u, LOBE_DELTA, LOBE_SPREAD, LOBE_DELTA | LOBE_SPREAD,
+                           LOBE_DELTA | LOBE_NARROW, LOBE_DELTA | LOBE_SPREAD | LOBE_NARROW})
       for (unsigned depth = 0; depth <= 6; ++depth) {  // 0: unlimited
         const SceneOptics scene{lights, lobes, depth ? std::optional(depth) : std::nullopt};
         for (const Integrator& m : methods()) {
@@ -143,7 +157,9 @@ TEST(Reach, NamesTheClass) {
                       {"light", ball, 3, "surfaces lit by emitting surfaces, seen"},
                       {"naive", ball, 0, ""},
                       {"path", ball, 0, ""},
-                      {"bdpt", ball, 0, ""}};
+                      {"bdpt", ball, 0, ""},
+                      {"sppm", point, 0, ""},
+                      {"vcm", point, 0, ""}};
   for (const Row& row : rows) {
     SCOPED_TRACE(row.method);
     for (const Integrator& m : methods())
@@ -175,6 +191,23 @@ TEST(Reach, TellsWhoSeesIt) {
   EXPECT_PRED2(ends_with, sentence("path", shallow), "; light, unconnected, bdpt can");
   EXPECT_PRED2(ends_with, sentence("path", scene), "; light, unconnected, bdpt can in part");
   EXPECT_PRED2(ends_with, sentence("bdpt", scene), "; no method here can");
+}
+
+TEST(Reach, TellsThatNothingHoldsPhotons) {
+  const unsigned point = 1u << LIGHT_POINT;
+  const auto told = [](const char* name, const SceneOptics& scene) {
+    for (const Integrator& m : methods())
+      if (m.name == name)
+        for (const std::string& text : blind_spots(m, scene, methods()))
+          if (text.find("merges nothing") != std::string::npos) return true;
+    return false;
+  };
+  EXPECT_TRUE(told("sppm", {point, LOBE_DELTA, {}}));
+  EXPECT_TRUE(told("sppm", {point, LOBE_NARROW, {}}));
+  EXPECT_FALSE(told("sppm", {point, LOBE_SPREAD, {}}));
+  EXPECT_TRUE(told("vcm", {point, LOBE_DELTA, {}}));
+  EXPECT_FALSE(told("vcm", {point, LOBE_NARROW, {}}));
+  EXPECT_FALSE(told("path", {point, LOBE_DELTA, {}}));
 }
 
 // ---- what of a scene counts

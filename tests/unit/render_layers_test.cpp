@@ -11,11 +11,13 @@
 namespace pellucid {
 namespace {
 
-constexpr uint kinds_of_all = LAYERS_LENGTH | LAYERS_TECH | LAYERS_VERTICES;
+constexpr uint kinds_of_all = LAYERS_LENGTH | LAYERS_TECH | LAYERS_VERTICES | LAYERS_MERGE |
+                              LAYERS_PHOTONS | LAYERS_CELLS | LAYERS_RADIUS;
 
 TEST(Layers, every_layer_has_one_number) {
   for (uint kinds = 1; kinds <= kinds_of_all; ++kinds)
-    for (uint longest = 1; longest <= LAYER_LENGTH_MAX; ++longest)
+    for (uint longest : {1u, 2u, 3u, 7u, LAYER_LENGTH_MAX}) {
+      if (kinds & LAYERS_MERGE && !(kinds & LAYERS_TECH)) continue;
       for (uint most_s = 0; most_s <= longest; ++most_s) {
         const uint set = layer_set_of(kinds, longest, most_s);
         ASSERT_EQ(layer_kinds(set), kinds);
@@ -33,7 +35,14 @@ TEST(Layers, every_layer_has_one_number) {
             }
           numbers.push_back(layer_of_weighted(set, 0, longest + 1));
         }
+        for (uint k = 1; k <= longest && kinds & LAYERS_MERGE; ++k) {
+          numbers.push_back(layer_of_merge(set, k));
+          numbers.push_back(layer_of_merge_unweighted(set, k));
+        }
         if (kinds & LAYERS_VERTICES) numbers.push_back(layer_of_vertices(set));
+        if (kinds & LAYERS_PHOTONS) numbers.push_back(layer_of_photons(set));
+        if (kinds & LAYERS_CELLS) numbers.push_back(layer_of_cells(set));
+        if (kinds & LAYERS_RADIUS) numbers.push_back(layer_of_radius(set));
         ASSERT_EQ(numbers.size(), layer_count(set));
         const std::set<uint> all(numbers.begin(), numbers.end());
         ASSERT_EQ(all.size(), numbers.size()) << "no two share one";
@@ -42,6 +51,7 @@ TEST(Layers, every_layer_has_one_number) {
         ASSERT_EQ(layer_of_length(set, 9999), layer_of_length(set, longest + 1));
         ASSERT_EQ(layer_of_weighted(set, most_s, 9999), layer_of_weighted(set, 0, longest + 1));
       }
+    }
   EXPECT_EQ(layer_count(0), 0u);
 }
 
@@ -85,13 +95,18 @@ TEST(Layers, sums_become_means) {
   layers.words[place] = 5, layers.words[place + 1] = 1u << 20;
   const std::size_t vertices = layers.words_per_pixel() + layer_of_vertices(set) * LAYER_WORDS;
   layers.words[vertices] = 12;
+  layers.words[layer_of_radius(set) * LAYER_WORDS] = uint(3 * LAYER_RADIUS_STEPS);
+  layers.words[layer_of_cells(set) * LAYER_WORDS + LAYER_CELL_PARITY] = 2;
   std::map<std::string, std::vector<float>> images;
   for (const AovChannel& image : layer_images(layers, 8)) images[image.name] = image.data;
   ASSERT_EQ(images.at("length.2.G").size(), pixels);
   EXPECT_EQ(images.at("length.2.G")[2], float((0x1p52 + 5) / 0x1p20 / 8));
   EXPECT_EQ(images.at("length.1.R")[1], float(double(layers.words_per_pixel()) / 0x1p20 / 8));
   EXPECT_EQ(images.at("light.vertices")[1], 1.5f) << "12 in 8 passes";
-  EXPECT_EQ(images.size(), 3 * layer_count(set) - 2) << "vertices are one channel";
+  EXPECT_EQ(images.at("radius")[0], 0.375f) << "3 pixels in 8 passes";
+  EXPECT_EQ(images.at("cells.parity")[0], 2.0f) << "of one pass";
+  EXPECT_EQ(images.size(), 3 * layer_count(set) - 6)
+      << "vertices, photons and the radius are one channel each";
   EXPECT_EQ(layer_images(layers, 0)[0].data.size(), pixels) << "no passes yet";
 }
 

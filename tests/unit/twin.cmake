@@ -26,7 +26,7 @@ function(pellucid_twin_executable name prefix)
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
   target_link_libraries(${name} PRIVATE pellucid_test_support GTest::gtest_main pellucid_options)
-  gtest_discover_tests(${name} TEST_PREFIX "${prefix}" PROPERTIES LABELS unit TIMEOUT 300)
+  gtest_discover_tests(${name} TEST_PREFIX "${prefix}" PROPERTIES LABELS unit TIMEOUT 600)
 endfunction()
 
 file(GLOB twin_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/twin_*_test.cpp)
