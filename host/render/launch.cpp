@@ -46,11 +46,9 @@ Launch make_launch(const PackedScene& scene, int width, int height, const Window
 }
 
 double default_radius(const PackedScene& scene, uint light_paths) {
-  constexpr double share =
-      1.5;  // 0.003 of the scene's radius with 512x512 paths, as SmallVCM has it
+  constexpr double share = 1.5;  // with 512x512 paths 0.003 of the scene's radius, as SmallVCM
   const double r = scene.info.center_radius.w > 0.0f ? scene.info.center_radius.w : 1.0;
-  return (getenv("PELLUCID_SHARE") ? atof(getenv("PELLUCID_SHARE")) : share) * r /
-         std::sqrt(double(light_paths));
+  return share * r / std::sqrt(double(light_paths));
 }
 
 double least_radius(const PackedScene& scene) {
@@ -78,9 +76,7 @@ void set_merging(Launch& launch, const Merging& merging) {
   launch.radius = float(radius);
   launch.merge_scale = float(1 / eta);
   launch.mis_vm = float(eta);
-  launch.mis_deep = getenv("PELLUCID_DEEP") ? float(atof(getenv("PELLUCID_DEEP")))
-                    : merging.first_only    ? 0.0f
-                                            : MERGE_DEEP_TRUST;
+  launch.mis_deep = merging.first_only ? 0.0f : MERGE_DEEP_TRUST;
 }
 
 void set_grid(Launch& launch, const F4& origin, uint grid_bits) {

@@ -18,7 +18,7 @@ HOST = {
     "scene": {"base", "image"},
     "pack": {"base", "scene", "bvh", "shared"},
     "render": {"base", "image", "cl", "pack", "scene", "bvh", "shared"},
-    "integrators": {"base", "pack", "render"},
+    "integrators": {"base", "pack", "render", "shared"},
     "bench": {"base", "cl", "pack", "render", "scene", "bvh", "shared"},
     "apps": {"base", "bench", "image", "bvh", "cl", "scene", "pack", "render", "integrators", "shared"},
 }
