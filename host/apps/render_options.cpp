@@ -40,8 +40,8 @@ uint parse_mis(const std::string& text, const Integrator& method) {
   if (text != "balance" && !method.weighs)
     throw UsageError("--mis " + text + " has no effect on '" + method.name +
                      "', which combines nothing");
-  if (text == "max" && method.wishes.has(INTG_CONNECT))
-    throw UsageError("--mis max is for `path` alone: '" + method.name +
+  if (text == "max" && (method.wishes.has(INTG_CONNECT) || method.merges_everywhere()))
+    throw UsageError("--mis max is for `path` and `sppm` alone: '" + method.name +
                      "' weighs too many strategies to look for the best");
   return text == "power" ? MIS_POWER : text == "max" ? MIS_MAX : MIS_BALANCE;
 }
@@ -155,8 +155,9 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
   app.add_option("-i,--integrator", f.integrator,
                  "the method (default: the scene's, else path). " + methods)
       ->type_name(integrator_names());
-  app.add_option("--mis", f.mis,
-                 "how methods weigh their strategies (default balance); max: `path` alone")
+  app.add_option(
+         "--mis", f.mis,
+         "how methods weigh their strategies (default balance); max: `path` and `sppm` alone")
       ->type_name("balance|power|max");
   app.add_option("--spp", f.spp, "samples per pixel (default: the scene's, else 64)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xffffffff}));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "render/launch.h"
+
 namespace pellucid {
 
 BenchScene::BenchScene(const Device& device, Scene scene, int size, const PlanOptions& plan)
@@ -17,13 +19,19 @@ BenchScene::BenchScene(const Device& device, Scene scene, int size, const PlanOp
   packed_ = pack_scene(scene_, {simd_width_for(device.info())});
 }
 
+std::optional<unsigned> BenchScene::max_depth() const {
+  if (!scene_.settings.max_depth) return std::nullopt;
+  return unsigned(*scene_.settings.max_depth);
+}
+
 BenchRun BenchScene::render(const Integrator& method, Sampler sampler, std::uint64_t spp,
-                            std::uint64_t seed) const {
+                            std::uint64_t seed, double radius_share) const {
   RenderOptions o;
   o.width = o.height = size_;
   o.passes = PassRange{0, spp};
   o.seed = seed;
-  if (scene_.settings.max_depth) o.max_depth = uint(*scene_.settings.max_depth);
+  o.max_depth = max_depth();
+  if (radius_share != 1) o.radius = radius_share * default_radius(packed_, o.light_path_count());
   o.plan = plan_;
   o.plan.sampler = sampler;
   Session session(device_, packed_, method, o);

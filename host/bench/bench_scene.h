@@ -1,6 +1,7 @@
 // A scene made ready to be rendered again and again, with error and time of every run.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "bench/clock.h"
@@ -21,9 +22,12 @@ class BenchScene {
   /// is nobody's doing.
   BenchScene(const Device& device, Scene scene, int size, const PlanOptions& plan);
 
-  BenchRun render(const Integrator& method, Sampler sampler, std::uint64_t spp,
-                  std::uint64_t seed) const;
+  /// Methods that merge do so within `radius_share` of the default radius.
+  BenchRun render(const Integrator& method, Sampler sampler, std::uint64_t spp, std::uint64_t seed,
+                  double radius_share = 1) const;
   const std::string& name() const { return scene_.name; }
+  const PackedScene& packed() const { return packed_; }
+  std::optional<unsigned> max_depth() const;
 
  private:
   Device device_;

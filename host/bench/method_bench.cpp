@@ -19,10 +19,11 @@ std::uint64_t spp_for_time(double seconds_per_spp, double seconds) {
 
 std::vector<MethodCell> bench_one(const BenchScene& scene,
                                   const std::vector<const Integrator*>& methods,
-                                  const Integrator& referee, const MethodBenchOptions& o) {
+                                  const Referee& referee, const MethodBenchOptions& o) {
   constexpr std::uint64_t reference_seed = 1000000, pilot_seed = 2000000;
   const BenchRun reference =
-      scene.render(referee, Sampler::random, o.reference_spp, reference_seed);
+      scene.render(referee(scene.packed(), scene.max_depth()), Sampler::random, o.reference_spp,
+                   reference_seed, o.reference_radius);
   std::vector<MethodCell> cells(methods.size());
   double seconds = 0;
   for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -57,8 +58,7 @@ std::vector<MethodCell> bench_one(const BenchScene& scene,
 
 std::vector<MethodCell> bench_methods(const Device& device, std::vector<Scene> scenes,
                                       const std::vector<const Integrator*>& methods,
-                                      const Integrator& referee,
-                                      const MethodBenchOptions& options) {
+                                      const Referee& referee, const MethodBenchOptions& options) {
   std::vector<MethodCell> cells;
   for (Scene& scene : scenes) {
     if (options.progress) options.progress(scene.name);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,14 +30,20 @@ struct MethodBenchOptions {
   int size = 64;           ///< pixels per side
   std::uint64_t spp = 64;  ///< of the first method
   std::uint64_t reference_spp = 4096;
+  /// Share of the default radius that the referee merges within, where it does: its bias has to be
+  /// small beside that of the methods.
+  double reference_radius = 0.25;
   PlanOptions plan;
   std::function<void(const std::string&)> progress;
 };
 
+/// The method that a scene's reference is made by.
+using Referee = std::function<const Integrator&(const PackedScene&, std::optional<unsigned> depth)>;
+
 /// Runs of all methods take turns, seed by seed; the first of `methods` is what gains are over. The
-/// reference of each scene is a long render by `referee`, of a seed of its own.
+/// reference of each scene is a long render by its referee, of a seed of its own.
 std::vector<MethodCell> bench_methods(const Device& device, std::vector<Scene> scenes,
                                       const std::vector<const Integrator*>& methods,
-                                      const Integrator& referee, const MethodBenchOptions& options);
+                                      const Referee& referee, const MethodBenchOptions& options);
 
 }  // namespace pellucid

@@ -44,8 +44,7 @@ Integrator merging(const std::string& name, const std::string& summary, FeatureS
                    uint most_s) {
   std::vector<Pass> passes = photon_passes();
   add_eye_passes(wishes.has(INTG_CONNECT), passes);
-  const bool weighs = wishes.has(INTG_CONNECT) || !wishes.has(INTG_NEE);
-  return {name, summary, wishes, weighs, passes, most_s};
+  return {name, summary, wishes, true, passes, most_s};
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ with tempfile.TemporaryDirectory() as folder:
                           timeout=500)
     check(done.returncode == 0, "exit code of the render workload", done.stderr)
     cells = json.loads(done.stdout)["methods"]
-    check([c["integrator"] for c in cells] == ["path", "naive", "nee", "light", "bdpt"], "methods", cells)
+    check([c["integrator"] for c in cells] == ["path", "naive", "nee", "light", "bdpt", "sppm", "bpm", "vcm"], "methods", cells)
     for cell in cells:
         check(cell["relmse"] > 0 and cell["seconds"] > 0 and cell["mrays_per_s"] > 0, "figures", cell)
         check(abs(cell["efficiency"] * cell["relmse"] * cell["seconds"] - 1) < 1e-6, "efficiency", cell)

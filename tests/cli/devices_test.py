@@ -17,7 +17,8 @@ from harness import PELLUCID, QUICK, SOURCE, check, document, expect, run, run_t
 
 COMMANDS = ("render", "devices", "info", "compare", "bench", "merge", "kernels", "schema",
             "completion")
-METHODS = ("naive", "nee", "path", "reference", "light", "bdpt", "sppm", "vcm")
+METHODS = ("naive", "nee", "path", "reference", "light", "bdpt", "sppm", "bpm",
+           "vcm")
 
 
 def test_devices():

@@ -14,7 +14,8 @@ sys.dont_write_bytecode = True
 from harness import (HEIGHT, QUICK, ROOM, SOURCE, WIDTH, check, document, expect, read_bytes, read_json,
                      run_tests, same_pixels, write_text)
 
-METHODS = ("naive", "nee", "path", "reference", "light", "bdpt", "sppm", "vcm")
+METHODS = ("naive", "nee", "path", "reference", "light", "bdpt", "sppm", "bpm",
+           "vcm")
 
 
 def stats_of(*options):
@@ -138,6 +139,37 @@ def test_sub_paths():
     expect(3, [*tiled, "-D", "materials.grid along.texture.scale=[400, 400]", "-o", "tiled.exr"],
            "texture coordinates", "--vertices full")
     expect(2, [*QUICK, "-i", "bdpt", "--vertices", "small"], "--vertices", "full, compact")
+
+
+def test_merging():
+    """Radius, which vertices merge, and what is refused."""
+    stats = {r: stats_of("-i", "sppm", "--spp", "64", "--radius", r) for r in ("0.02", "0.2")}
+    check(stats["0.02"]["mean"] != stats["0.2"]["mean"], "--radius has an effect", stats)
+    one, two = (stats_of("-i", "sppm", "--spp", "64", "--radius-alpha", a) for a in ("0.5", "1"))
+    check(one["mean"] != two["mean"], "--radius-alpha has an effect", one, two)
+    few, many = (stats_of("-i", "sppm", "--spp", "64", "--light-paths", n) for n in ("64", "2048"))
+    check(close(few["mean"], many["mean"], 0.1) and many["rays"] > 2 * few["rays"],
+          "--light-paths of sppm", few, many)
+    every, first = (stats_of("-i", "vcm", "--spp", "64", "--merges", m) for m in ("all", "first"))
+    check(every["mean"] != first["mean"] and close(every["mean"], first["mean"], 0.05), "--merges",
+          every, first)
+    names = [p["name"] for p in every["passes"]]
+    check(names == ["light_trace", "vertex_scan", "vertex_order", "grid_keys", "grid_count",
+                    "grid_scan", "grid_scatter", "grid_ranges", "camera_trace", "connect", "merge",
+                    "film_add"], "passes of vcm", names)
+    for bad in ("0", "-1", "nan", "inf", "1e99", "wide"):
+        expect(2, [*QUICK, "-i", "sppm", "--radius=" + bad], "--radius", bad)
+    for bad in ("0", "-1", "nan", "1.5", "x"):
+        expect(2, [*QUICK, "-i", "sppm", "--radius-alpha=" + bad], "--radius-alpha", bad)
+    for option, value in (("--radius", "1"), ("--radius-alpha", "0.7"), ("--merges", "first")):
+        expect(2, [*QUICK, option, value], option, "'path'")
+    expect(2, [*QUICK, "-i", "sppm", "--merges", "first"], "--merges", "'sppm'")
+    expect(2, [*QUICK, "-i", "vcm", "--merges", "none"], "--merges", "all, first")
+    expect(2, [*QUICK, "-i", "vcm", "--mis", "max"], "--mis max", "path")
+    _, told = expect(0, ["room.json", "--spp", "4", "-i", "sppm", "-D", 'materials.grey={"type": "mirror"}'])
+    check("holds photons" in told, "nothing holds photons", told)
+    _, told = expect(4, [*QUICK, "-i", "vcm", "--light-paths", "1000000", "--memory", "64M"])
+    check("--light-paths" in told and "--memory" in told, "too many photons", told)
 
 
 def test_aov():

@@ -187,10 +187,14 @@ TEST(Reach, TellsWhoSeesIt) {
   EXPECT_EQ(sentence("naive", shallow).find("'naive' cannot see anything lit by point lights; "),
             0u);
   EXPECT_PRED2(ends_with, sentence("naive", shallow),
-               "; unconnected, bdpt can; nee, path, light can in part");
-  EXPECT_PRED2(ends_with, sentence("path", shallow), "; light, unconnected, bdpt can");
-  EXPECT_PRED2(ends_with, sentence("path", scene), "; light, unconnected, bdpt can in part");
-  EXPECT_PRED2(ends_with, sentence("bdpt", scene), "; no method here can");
+               "; unconnected, bdpt, sppm, bpm, vcm can; nee, path, light can in part");
+  EXPECT_PRED2(ends_with, sentence("path", shallow),
+               "; light, unconnected, bdpt, sppm, bpm, vcm can");
+  EXPECT_PRED2(ends_with, sentence("path", scene),
+               "; sppm, bpm, vcm can; light, unconnected, bdpt can in part");
+  EXPECT_PRED2(ends_with, sentence("bdpt", scene), "; sppm, bpm, vcm can");
+  const Integrator path = methods()[3];
+  EXPECT_PRED2(ends_with, blind_spots(path, scene, {path}).at(0), "; no method here can");
 }
 
 TEST(Reach, TellsThatNothingHoldsPhotons) {
@@ -270,7 +274,7 @@ TEST(Optics, LobesOfSurfaces) {
 TEST(Reach, RegistryIsSound) {
   const SceneOptics plain{DELTA_LIGHTS, LOBE_SPREAD, {}};
   for (const Integrator& m : integrators()) {
-    const bool chance_alone = !m.wishes.has(INTG_NEE) && !m.wishes.has(INTG_SPLAT);
+    const bool chance_alone = !m.wishes.has(INTG_NEE) && !m.walks_from_lights();
     EXPECT_EQ(unreachable_paths(m, plain).empty(), !chance_alone) << m.name;
     const Seers seers = seers_of_unreachable(m, plain, integrators());
     EXPECT_EQ(!seers.all.empty(), chance_alone) << m.name;
