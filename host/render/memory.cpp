@@ -138,7 +138,8 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
 }
 
 MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
-                       const Integrator& integrator, const RenderOptions& options) {
+                       const Integrator& integrator, const RenderOptions& wanted) {
+  RenderOptions options = wanted;
   const Window window = options.window();
   const std::uint64_t host_bytes = options.host_bytes;
   const std::uint64_t film_bytes =
@@ -155,7 +156,14 @@ MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
   MemoryPlan plan;
   plan.film_bytes = film_bytes;
   plan.limit = most;
-  if (!fits(1)) throw DeviceError(objection(device, most, asked, sizes(1)));
+  if (integrator.uses(Bundle::grid))  // all light paths' at once: less room than they mostly need
+    while (!fits(1) && options.plan.vertices_per_path > 1) options.plan.vertices_per_path /= 2;
+  if (!fits(1))
+    throw DeviceError(objection(device, most, asked, sizes(1)) +
+                      (integrator.uses(Bundle::grid)
+                           ? "; it merges the vertices of all light paths at once: try fewer "
+                             "--light-paths, --vertices compact, or more --memory"
+                           : ""));
   int low = 1, high = window.height;  // bisection: what `low` rows need fits
   while (low < high) {
     const int middle = low + (high - low + 1) / 2;
@@ -167,7 +175,7 @@ MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
   // Where bands are needed at all, large ones crowd the host out and gain nothing over these, but
   // for methods that trace all light paths anew in each.
   constexpr std::uint64_t enough = std::uint64_t{1} << 30;
-  if (low < window.height && !integrator.uses(Bundle::splat)) {
+  if (low < window.height && !integrator.walks_from_lights()) {
     const std::uint64_t row = total(sizes(2)) - total(sizes(1));
     low = int(std::min(std::uint64_t(low), std::max<std::uint64_t>(1, enough / row)));
   }

@@ -61,11 +61,15 @@ INLINE void layer_add(LayerSink sink, real3 value, real weight, uint s, uint dep
     layer_put(sink, layer_of_unweighted(sink.set, s, depth), value);
 }
 
+/// Counts a photon within the radius of the first vertex that gathers.
+INLINE void layer_photon(LayerSink sink) {
+  if (sink.first && (layer_kinds(sink.set) & LAYERS_PHOTONS))
+    layer_put_count(sink, layer_of_photons(sink.set), 0u, 1ul);
+}
+
 /// Adds what a merge at eye vertex k found as a path of `depth` segments.
 INLINE void layer_merge(LayerSink sink, real3 value, real weight, uint k, uint depth) {
   uint kinds = layer_kinds(sink.set);
-  if (sink.first && (kinds & LAYERS_PHOTONS))
-    layer_put_count(sink, layer_of_photons(sink.set), 0u, 1ul);
   if (kinds & LAYERS_LENGTH) layer_put(sink, layer_of_length(sink.set, depth), value * weight);
   if (!(kinds & LAYERS_MERGE)) return;
   layer_put(sink, layer_of_merge(sink.set, k), value * weight);

@@ -27,7 +27,7 @@ __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PA
     __global const StoredVertex* eye_at = (__global const StoredVertex*)eye_vertices;
     EndVertex eye = vertex_unpack(&scene_data, eye_at[eye_order[i]], 0);
 #if INTG_MERGE
-    eye.partials.first = i == eye_first[index];
+    eye.partials.trust = merge_trust(launch, i == eye_first[index], 0);
 #endif
     for (uint j = light_first[path]; j < light_end; ++j) {
       __global const StoredVertex* light_at = (__global const StoredVertex*)light_vertices;

@@ -84,7 +84,7 @@ __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
   LightWalk w = light_walk_start(&scene_data, rng);
   Vertex v;
   uint limit = depth_limit(launch);
-  while (w.depth + 1u < limit && light_walk_next(&scene_data, &w, &v)) {
+  while (w.depth + 1u < limit && light_walk_next(&scene_data, launch, &w, &v)) {
     if (!bsdf_is_delta(v.material)) {
 #if INTG_SPLAT
       if (splatted)

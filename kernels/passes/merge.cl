@@ -19,10 +19,13 @@ INLINE real3 merge_around(PRIVATE const SceneData* scene, Launch launch,
   for (;;) {
     uint i = grid_next(launch, photon_positions, grid_cells, &search);
     if (i == NONE) return sum;
+#if INTG_LAYERS
+    layer_photon(sink);
+#endif
     Photon photon = photons[i];
     uint depth = eye->depth + photon.depth;
     if (depth > launch.max_depth) continue;
-#if INTG_GATHER
+#if INTG_NEE
     if (photon.depth == 1u) continue;  // light samples have brought it
 #endif
     Merge merge;
@@ -66,7 +69,7 @@ __kernel void merge(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARA
     if (!first && launch.mis_deep == 0.0f) break;
     __global const StoredVertex* eye_at = (__global const StoredVertex*)eye_vertices;
     EndVertex eye = vertex_unpack(&scene_data, eye_at[eye_order[i]], 0);
-    eye.partials.first = first;
+    eye.partials.trust = merge_trust(launch, first, 0);
 #if INTG_LAYERS
     LayerSink sink = layer_sink(layers, diag, launch, pixel);
     sink.first = first;

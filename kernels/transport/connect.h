@@ -33,9 +33,13 @@ INLINE int connect_vertices(PRIVATE const SceneData* scene, Launch launch,
   real reverse_l = vertex_pdf_reverse(scene, &light->v, -w) * survive_l;
   real cos_g_eye = r_abs(dot3(eye->v.surface.ng, w));
   real cos_g_light = r_abs(dot3(light->v.surface.ng, w));
+  Partials from_light = light->partials;
+#if INTG_MERGE
+  from_light.trust = merge_trust(launch, 0, light->depth == 1u);
+#endif
   link->weight = partial_weight(
       launch.mis,
-      partials_end(launch, light->partials, e.pdf_w * survive_e * cos_g_light / d2, reverse_l),
+      partials_end(launch, from_light, e.pdf_w * survive_e * cos_g_light / d2, reverse_l),
       partials_end(launch, eye->partials, l.pdf_w * survive_l * cos_g_eye / d2, reverse_e));
   real3 target = spawn_origin(light->v.surface.p, light->v.surface.ng, light->v.surface.offset, -w);
   return shadow_ray(&eye->v.surface, w, target, &link->ray);

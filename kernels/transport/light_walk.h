@@ -33,7 +33,7 @@ INLINE LightWalk light_walk_start(PRIVATE const SceneData* scene, Rng rng) {
 
 #if INTG_PARTIALS
 /// The walk has come to the vertex, the last of `depth` segments.
-INLINE void light_walk_arrive(PRIVATE const SceneData* scene, PRIVATE LightWalk* w,
+INLINE void light_walk_arrive(PRIVATE const SceneData* scene, Launch launch, PRIVATE LightWalk* w,
                               PRIVATE const Vertex* v) {
   if (w->depth == 1u) {
     // Only here is NEE's density known: it may depend on where it looks from.
@@ -43,11 +43,14 @@ INLINE void light_walk_arrive(PRIVATE const SceneData* scene, PRIVATE LightWalk*
   } else {
     walk_arrive(v, &w->walk);
   }
+#if INTG_MERGE
+  w->walk.partials.trust = merge_trust(launch, 0, w->depth == 1u);
+#endif
 }
 #endif
 
 /// Traces the next segment. 0: it ends on nothing that scatters.
-INLINE int light_walk_next(PRIVATE const SceneData* scene, PRIVATE LightWalk* w,
+INLINE int light_walk_next(PRIVATE const SceneData* scene, Launch launch, PRIVATE LightWalk* w,
                            PRIVATE Vertex* v) {
   if (is_black(w->walk.beta)) return 0;
   ++w->walk.rays;
@@ -57,7 +60,7 @@ INLINE int light_walk_next(PRIVATE const SceneData* scene, PRIVATE LightWalk* w,
   *v = vertex_at(scene, surface_at(scene, w->walk.ray, hit), -w->walk.ray.d, 1);
   if (v->black) return 0;
 #if INTG_PARTIALS
-  light_walk_arrive(scene, w, v);
+  light_walk_arrive(scene, launch, w, v);
 #endif
   return 1;
 }
@@ -89,7 +92,7 @@ INLINE int camera_link(PRIVATE const SceneData* scene, Launch launch, Camera cam
   real reverse = vertex_pdf_reverse(scene, v, wi) * (real)v->material.survive;
   Partials q = w->walk.partials;
 #if INTG_MERGE
-  q.first = 1;
+  q.trust = merge_trust(launch, 1, w->depth == 1u);
 #endif
   real others = partials_end(launch, q, cos_g * scale, reverse);
   link->weight = partial_weight(launch.mis, others, REAL(0.0));

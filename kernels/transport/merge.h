@@ -32,7 +32,7 @@ INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE c
   real survive = (real)eye->v.material.survive;
   real reverse = vertex_pdf_reverse(scene, &eye->v, wi) * survive;
   Partials light = partials_start((real)photon.wi_dVCM.w, (real)photon.beta_dVC.w);
-  light.first = eye->partials.first;
+  light.trust = eye->partials.trust;
   real on_light = partials_merge(launch, light, e.pdf_w * survive);
   real on_eye = partials_merge(launch, eye->partials, reverse);
   merge->weight = partial_weight(launch.mis, on_light, on_eye);

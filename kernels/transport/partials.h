@@ -22,7 +22,8 @@ typedef struct Partials {
   real dVC_scaled;  // dVC over 2^(64 scale)
   uint scale;
 #if INTG_MERGE
-  int first;  // no vertex before this one, from the camera, could have been merged
+  real trust;       // share of Launch.mis_vm that a merge at this side's last vertex weighs
+  real dVC_direct;  // dVC_scaled without a merge at the vertex before: a light here hides it
 #endif
 } Partials;
 
@@ -35,36 +36,65 @@ INLINE Partials partials_start(real dVCM, real dVC) {
   q.dVC_scaled = dVC;
   q.scale = 0u;
 #if INTG_MERGE
-  q.first = 0;
+  q.trust = REAL(0.0);
+  q.dVC_direct = dVC;
 #endif
   return q;
 }
+
+#if INTG_MERGE
+/// Share of its density that a merge weighs: at the first vertex of an eye path that can, at
+/// others, and of light that comes straight from its source, which light samples bring with less
+/// noise.
+INLINE real merge_trust(Launch launch, int first, int direct) {
+#if INTG_NEE
+  if (direct) return REAL(0.0);
+#endif
+  return first ? REAL(1.0) : (real)launch.mis_deep;
+}
+#endif
 
 /// Of a walk from the camera, whose direction has density `pdf_camera` [1/sr].
 INLINE Partials partials_from_camera(Launch launch, real pdf_camera) {
   Partials q = partials_start((real)launch.light_paths / pdf_camera, REAL(0.0));
 #if INTG_MERGE
-  q.first = 1;
+  q.trust = REAL(1.0);
 #endif
   return q;
 }
 
 /// dVC at the end of a sub-path, cut at the largest number: what is left of a strategy against it
 /// is nothing.
+INLINE real partials_unscaled(Partials q, real scaled) {
+  if (q.scale == 0u) return scaled;
+  return q.scale == 1u ? r_min(scaled * PARTIALS_SCALE, REAL_MAX) : REAL_MAX;
+}
 INLINE real partials_dVC(Partials q) {
-  if (q.scale == 0u) return q.dVC_scaled;
-  return q.scale == 1u ? r_min(q.dVC_scaled * PARTIALS_SCALE, REAL_MAX) : REAL_MAX;
+  return partials_unscaled(q, q.dVC_scaled);
+}
+/// The same where the walk has come upon a light: the vertex before is not merged with its light.
+INLINE real partials_dVC_emission(Partials q) {
+#if INTG_MERGE && INTG_NEE
+  return partials_unscaled(q, q.dVC_direct);
+#else
+  return partials_dVC(q);
+#endif
 }
 
 /// Keeps dVC within the range of float. At scale 0 it may well vanish: it will be added to dVCM.
 INLINE void partials_rescale(PRIVATE Partials* q) {
+  real factor = REAL(1.0);
   if (q->dVC_scaled > PARTIALS_SCALE) {
-    q->dVC_scaled = r_min(q->dVC_scaled, REAL_MAX) * PARTIALS_SCALE_INV;
+    factor = PARTIALS_SCALE_INV;
     ++q->scale;
   } else if (q->scale > 0u && q->dVC_scaled < REAL(1.0)) {
-    q->dVC_scaled = q->dVC_scaled * PARTIALS_SCALE;
+    factor = PARTIALS_SCALE;
     --q->scale;
   }
+  q->dVC_scaled = r_min(q->dVC_scaled, REAL_MAX) * factor;
+#if INTG_MERGE
+  q->dVC_direct = r_min(q->dVC_direct, REAL_MAX) * factor;
+#endif
 }
 
 /// a + b, or under the power heuristic sqrt(a^2 + b^2), for a, b >= 0. Cut at the largest number:
@@ -89,7 +119,7 @@ INLINE real partial_weight(uint heuristic, real light, real eye) {
 #if INTG_MERGE
 /// What a merge at the last vertex weighs over a connection to it.
 INLINE real merge_density(Launch launch, Partials q) {
-  return (real)launch.mis_vm * (q.first ? REAL(1.0) : (real)launch.mis_deep);
+  return (real)launch.mis_vm * q.trust;
 }
 #endif
 
@@ -118,8 +148,11 @@ INLINE void partials_scatter(Launch launch, PRIVATE Partials* q, real forward, r
   real inv = r_min(REAL(1.0) / forward, REAL_MAX);
   real before = q->dVC_scaled * reverse, here = partials_here(launch, *q);
   if (before == REAL(0.0)) q->scale = 0u;  // nothing is left of what has made it large
-  if (q->scale > 0u) here = q->scale == 1u ? here * PARTIALS_SCALE_INV : REAL(0.0);
-  q->dVC_scaled = partial_sum(launch.mis, before, here) * cos_g * inv;
+  real unit = q->scale == 0u ? REAL(1.0) : q->scale == 1u ? PARTIALS_SCALE_INV : REAL(0.0);
+#if INTG_MERGE
+  q->dVC_direct = partial_sum(launch.mis, before, q->dVCM * unit) * cos_g * inv;
+#endif
+  q->dVC_scaled = partial_sum(launch.mis, before, here * unit) * cos_g * inv;
   q->dVCM = r_min(inv, REAL_MAX);
   partials_rescale(q);
 }
@@ -129,6 +162,9 @@ INLINE void partials_scatter(Launch launch, PRIVATE Partials* q, real forward, r
 INLINE void partials_scatter_delta(PRIVATE Partials* q, real reverse, real cos_g) {
   q->dVCM = REAL(0.0);
   q->dVC_scaled = q->dVC_scaled * cos_g * reverse;
+#if INTG_MERGE
+  q->dVC_direct = q->dVC_scaled;  // light that comes by way of this lobe may be merged before
+#endif
   partials_rescale(q);
 }
 

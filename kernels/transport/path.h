@@ -23,7 +23,7 @@ INLINE real chance_weight(Launch launch, PRIVATE const Walk* walk, uint depth, r
 #if INTG_NEE
   by_nee = pdf_light * walk->partials.dVCM;
 #endif
-  return partial_weight(launch.mis, by_nee, emit * partials_dVC(walk->partials));
+  return partial_weight(launch.mis, by_nee, emit * partials_dVC_emission(walk->partials));
 #elif INTG_MIS
   return walk->pdf_w == REAL(0.0) ? REAL(1.0) : mis_weight(launch.mis, walk->pdf_w, pdf_light, 0);
 #elif INTG_NEE
@@ -77,10 +77,14 @@ INLINE real nee_weight(PRIVATE const SceneData* scene, Launch launch, PRIVATE co
                        PRIVATE const Walk* walk, PRIVATE const LightSample* light, BsdfEval e) {
 #if INTG_CONNECT
   real survive = (real)v->material.survive;
+  Partials q = walk->partials;
+#if INTG_MERGE
+  q.trust = merge_trust(launch, 0, 1);
+#endif
   real by_chance = light->delta ? REAL(0.0) : e.pdf_w * survive / light->pdf_w;
   real cos_g = r_abs(dot3(v->surface.ng, light->wi));
   return partial_weight(launch.mis, by_chance,
-                        partials_end(launch, walk->partials, light->emit * cos_g,
+                        partials_end(launch, q, light->emit * cos_g,
                                      vertex_pdf_reverse(scene, v, light->wi) * survive));
 #elif INTG_MIS
 #if INTG_GATHER

@@ -20,7 +20,7 @@ class PathDensities {
     std::vector<double> p(k_ + 2 + (merges ? k_ : 0), 0.0);
     for (std::size_t s = 0; s <= k_ + 1; ++s)
       if (possible(s)) p[s] = density(s);
-    for (std::size_t i = 1; merges && i <= k_; ++i)
+    for (std::size_t i = 2; merges && i <= k_; ++i)  // light samples bring what comes straight
       if (spread(i)) p[merge_at(i)] = merge_density(i);
     return p;
   }

@@ -130,7 +130,7 @@ void PathFinder<Found>::walk_light(Rng rng) {
   const uint limit = depth_limit(launch_);
   while (w.depth + 1u < limit) {
     const real3 d = w.walk.ray.d;
-    if (!light_walk_next(&scene_, &w, &v)) return;
+    if (!light_walk_next(&scene_, launch_, &w, &v)) return;
     light_.directions.push_back(d);
     light_.nodes.push_back({v.surface});
     light_.ends.push_back(end_vertex(v, w.walk, w.depth));

@@ -64,7 +64,7 @@ class Replay {
     for (std::size_t i = 0; i < k_; ++i) {
       const Vertex v = vertex_at(&twin_.data, path_.nodes[i].surface, -path_.edges[i], 1);
       ++w.depth;
-      light_walk_arrive(&twin_.data, &w, &v);
+      light_walk_arrive(&twin_.data, launch_, &w, &v);
       light_.push_back(end_vertex(v, w.walk, w.depth));
       leave(v, i, path_.edges[i + 1], true, w.walk);
     }
@@ -108,6 +108,7 @@ class Replay {
   real by_splat() const {
     LightWalk w = light_walk_from(start());
     w.walk.partials = light_[k_ - 1].partials;
+    w.depth = light_[k_ - 1].depth;
     CameraLink link;
     return camera_link(&twin_.data, launch_, twin_.packed.camera, &w, &light_[k_ - 1].v, &link)
                ? link.weight
@@ -123,7 +124,7 @@ class Replay {
   real by_merge(std::size_t i) const {
 #ifdef TWIN_MERGE
     Merge merge;
-    if (!path_.nodes[i].delta && merge_ends(twin_, launch_, eye_[i], light_[i], &merge))
+    if (i > 0 && !path_.nodes[i].delta && merge_ends(twin_, launch_, eye_[i], light_[i], &merge))
       return merge.weight;
 #endif
     return real(0);

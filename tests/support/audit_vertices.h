@@ -38,7 +38,11 @@ struct StorageErrors {
 /// The vertex as it comes back from memory.
 inline EndVertex stored(const TwinScene& twin, const EndVertex& end) {
   const StoredVertex s = vertex_pack(&end.v, end.beta, end.partials, end.depth);
-  return vertex_unpack(&twin.data, s, end.v.context.importance);
+  EndVertex back = vertex_unpack(&twin.data, s, end.v.context.importance);
+#ifdef TWIN_MERGE
+  back.partials.trust = end.partials.trust;  // passes know it by the vertex' place in its path
+#endif
+  return back;
 }
 
 /// The light vertex as if its walk had come to where the eye's vertex is.

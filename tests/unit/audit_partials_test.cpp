@@ -69,9 +69,9 @@ Launch launch_of(uint heuristic, double merging) {
   return launch;
 }
 
-void set_first(Partials& q, bool first) {
+void set_trust(const Launch& launch, Partials& q, bool first, bool direct) {
 #ifdef TWIN_MERGE
-  q.first = first;
+  q.trust = merge_trust(launch, first, direct);
 #endif
 }
 
@@ -84,7 +84,7 @@ std::vector<Partials> partials_along(const Launch& launch, const Chain& c, bool 
                               hit ? real(c.cos_leave[0] / c.density_a[0]) / c.forward(0) : real(0));
   for (int i = 1; i < vertices; ++i) {
     partials_arrive(&q, real(c.distance2[i - 1]), real(c.cos_arrive[i]));
-    set_first(q, first);
+    set_trust(launch, q, first, hit && i == 1);
     all[i] = q;
     if (i + 1 < vertices)
       partials_scatter(launch, &q, c.forward(i), c.backward(i), real(c.cos_leave[i]));
@@ -94,12 +94,12 @@ std::vector<Partials> partials_along(const Launch& launch, const Chain& c, bool 
 }
 
 /// Weights of the strategies that draw vertices 0 .. s-1 from the light, then of merging at vertex
-/// 1, 2, ..., by sums of logarithms. One end of the chain is the camera, which no walk hits.
+/// 2, 3, ..., by sums of logarithms. One end of the chain is the camera, which no walk hits.
 std::vector<double> exact_weights(const Launch& launch, const Chain& c) {
   std::vector<double> logs(vertices);
   for (int s = 1; s < vertices; ++s)
     logs[s] = logs[s - 1] + std::log(double(c.density_a[s - 1]) / double(c.reverse_a[s - 1]));
-  for (int i = 1; merges && i + 1 < vertices; ++i)
+  for (int i = 2; merges && i + 1 < vertices; ++i)
     logs.push_back(logs[i] + std::log(c.density_a[i] * double(launch.mis_vm) *
                                       (i + 2 == vertices ? 1.0 : double(launch.mis_deep))));
   const double most = *std::max_element(logs.begin(), logs.end());
@@ -125,7 +125,7 @@ real joined(const Launch& launch, const Chain& c, int s, const Partials& light,
 /// The same of merging at vertex i.
 real merged(const Launch& launch, const Chain& c, int i, Partials light, const Partials& eye) {
 #ifdef TWIN_MERGE
-  light.first = eye.first;
+  light.trust = eye.trust;
   return partial_weight(launch.mis, partials_merge(launch, light, c.backward(i)),
                         partials_merge(launch, eye, c.forward(i)));
 #else
@@ -148,9 +148,9 @@ Errors errors_of(const Launch& launch, double spread, int chains) {
     };
     for (int s = 2; s + 2 <= vertices; ++s)
       compare(joined(launch, light, s, from_light[s - 1], from_eye[vertices - 1 - s]), exact[s]);
-    for (int i = 1; merges && i + 1 < vertices; ++i)
+    for (int i = 2; merges && i + 1 < vertices; ++i)
       compare(merged(launch, light, i, from_light[i], from_eye[vertices - 1 - i]),
-              exact[vertices + i - 1]);
+              exact[vertices + i - 2]);
     e.worst = std::max(e.worst, worst);
     e.bad += worst > 1e-4;
     ++e.chains;
@@ -179,6 +179,7 @@ TEST(AuditPartials, NoWayBackLeavesWhatEndsHere) {
   for (uint scale : {0u, 1u, 2u, 3u}) {
     Partials q = partials_start(real(2), real(5));
     q.scale = scale;
+    set_trust(launch, q, false, false);
     partials_scatter(launch, &q, real(0.5), real(0), real(0.25));
     EXPECT_EQ(double(partials_dVC(q)), (merges ? 2.75 : 2) * 0.25 / 0.5) << scale;
   }

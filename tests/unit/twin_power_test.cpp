@@ -63,7 +63,7 @@ double arrives(const TwinScene& twin, Rng rng, PRIVATE LightWalk* w) {
   const double start = double(w->walk.beta.x);
   Vertex v;
   while (w->depth < most) {
-    if (!light_walk_next(&twin.data, w, &v)) return -1;  // through the wall, or gone in silence
+    if (!light_walk_next(&twin.data, {}, w, &v)) return -1;  // through the wall, or gone in silence
     if (!bsdf_is_delta(v.material)) return double(w->walk.beta.x) / start;
     if (!walk_scatter(&twin.data, launch, rng, DIM_LIGHT_WALK_BSDF(w->depth - 1u), &v, &w->walk))
       return -1;
