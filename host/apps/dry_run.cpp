@@ -9,6 +9,7 @@
 #include "apps/scene_report.h"
 #include "base/text.h"
 #include "integrators/registry.h"
+#include "render/launch.h"
 
 namespace pellucid {
 namespace {
@@ -16,46 +17,48 @@ namespace {
 nlohmann::json as_json(const RenderFacts& f, FeatureSet features, const MemoryPlan& memory,
                        const std::vector<std::string>& outputs) {
   using nlohmann::json;
-  json kernels = json::array();
-  for (const Pass& pass : f.integrator->passes) kernels.push_back(pass.name);
+  const json kernels = f.integrator->kernels();
   const RenderOptions& o = f.options;
-  return {{"dry_run", true},
-          {"scene", f.scene->name},
-          {"file", f.scene->path},
-          {"scene_hash", f.scene_hash},
-          {"integrator", f.integrator->name},
-          {"width", o.width},
-          {"height", o.height},
-          {"crop",
-           {o.window().x0, o.window().x0 + o.window().width, o.window().y0,
-            o.window().y0 + o.window().height}},
-          {"spp", o.passes ? json(o.passes->last - o.passes->first) : json()},
-          {"passes", o.passes ? json({o.passes->first, o.passes->last}) : json()},
-          {"settings", settings_text(*f.scene, o)},
-          {"time", o.seconds ? json(*o.seconds) : json()},
-          {"seed", o.seed},
-          {"max_depth", o.max_depth ? json(*o.max_depth) : json()},
-          {"mis", mis_name(o.mis)},
-          {"device", f.device->name},
-          {"driver", f.device->platform_name + " " + f.device->driver},
-          {"device_limits", device_facts(*f.device)},
-          {"features", feature_flags(features, all_features())},
-          {"kernels", kernels},
-          {"memory_bytes", memory.buffers},
-          {"memory_total", memory.device_bytes()},
-          {"film_bytes", memory.film_bytes},
-          {"tiles", memory.tiles.size()},
-          {"unreachable", unreachable_paths(*f.integrator, f.optics())},
-          {"by_chance", chance_paths(*f.integrator, f.optics())},
-          {"warnings", f.scene->warnings},
-          {"outputs", outputs}};
+  return {
+      {"dry_run", true},
+      {"scene", f.scene->name},
+      {"file", f.scene->path},
+      {"scene_hash", f.scene_hash},
+      {"integrator", f.integrator->name},
+      {"width", o.width},
+      {"height", o.height},
+      {"crop",
+       {o.window().x0, o.window().x0 + o.window().width, o.window().y0,
+        o.window().y0 + o.window().height}},
+      {"spp", o.passes ? json(o.passes->last - o.passes->first) : json()},
+      {"passes", o.passes ? json({o.passes->first, o.passes->last}) : json()},
+      {"settings", settings_text(*f.scene, o)},
+      {"time", o.seconds ? json(*o.seconds) : json()},
+      {"seed", o.seed},
+      {"max_depth", o.max_depth ? json(*o.max_depth) : json()},
+      {"mis", mis_name(o.mis)},
+      {"device", f.device->name},
+      {"driver", f.device->platform_name + " " + f.device->driver},
+      {"device_limits", device_facts(*f.device)},
+      {"features", feature_flags(features, all_features())},
+      {"kernels", kernels},
+      {"memory_bytes", memory.buffers},
+      {"memory_total", memory.device_bytes()},
+      {"film_bytes", memory.film_bytes},
+      {"tiles", memory.tiles.size()},
+      {"radius", f.integrator->wishes.has(INTG_MERGE) ? json(merging_for(*f.packed, o).first_radius)
+                                                      : json()},
+      {"unreachable", unreachable_paths(*f.integrator, f.optics())},
+      {"by_chance", chance_paths(*f.integrator, f.optics())},
+      {"warnings", f.scene->warnings},
+      {"outputs", outputs}};
 }
 
 std::string as_text(const RenderFacts& f, FeatureSet features, const MemoryPlan& memory,
                     const std::vector<std::string>& outputs) {
   const RenderOptions& o = f.options;
-  std::vector<std::string> kernels, budget;
-  for (const Pass& pass : f.integrator->passes) kernels.push_back(pass.name);
+  const std::vector<std::string> kernels = f.integrator->kernels();
+  std::vector<std::string> budget;
   if (o.passes)
     budget.push_back(fmt::format("{} spp, passes {}:{}", o.passes->last - o.passes->first,
                                  o.passes->first, o.passes->last));
@@ -71,8 +74,14 @@ std::string as_text(const RenderFacts& f, FeatureSet features, const MemoryPlan&
   if (f.integrator->uses(Bundle::light_vertices)) {
     std::size_t bytes = 0;
     for (const auto& [buffer, each] : vertex_buffers(*f.integrator, o.plan, "light")) bytes += each;
-    text += fmt::format("  vertices  {} bytes each; their buffers grow as the scene asks for it\n",
-                        bytes);
+    text += fmt::format(
+        "  vertices  {} bytes each of light paths; their buffers grow as the scene asks for it\n",
+        bytes);
+  }
+  if (f.integrator->wishes.has(INTG_MERGE)) {
+    const Merging merging = merging_for(*f.packed, o);
+    text += fmt::format("  merging   radius {:.4g}, in pass i (from 0) times (i + 1)^{:.4g}\n",
+                        merging.first_radius, 0.5 * (merging.alpha - 1));
   }
   if (memory.tiles.size() > 1) text += fmt::format("  bands     {}\n", memory.tiles.size());
   for (const std::string& blind : blind_spots(*f.integrator, f.optics(), integrators()))

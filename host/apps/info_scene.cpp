@@ -42,8 +42,7 @@ nlohmann::json methods_json(const SceneFacts& f) {
   nlohmann::json methods = nlohmann::json::object();
   const SceneOptics optics = optics_of(f.packed, f.scene.settings.max_depth);
   for (const Integrator& method : integrators()) {
-    nlohmann::json kernels = nlohmann::json::array();
-    for (const Pass& pass : method.passes) kernels.push_back(pass.name);
+    const nlohmann::json kernels = method.kernels();
     methods[method.name] = {{"can_render", true},
                             {"unreachable", unreachable_paths(method, optics)},
                             {"by_chance", chance_paths(method, optics)},

@@ -44,17 +44,17 @@ ExitCode KernelsCommand::run(const CommonOptions& common) const {
       fmt::format("for {} by {} on {}\nfeatures  {}\noptions   {}\n", s.name, method.name,
                   target.info().name, special.features.describe(), build_options);
   nlohmann::json kernels = nlohmann::json::array();
-  for (const Pass& pass : method.passes) {
-    const std::string source = files.expand("passes/" + pass.name + ".cl", prelude);
-    const std::string file = dump.empty() ? "" : dump + "/" + pass.name + ".cl";
+  for (const std::string& kernel : method.kernels()) {
+    const std::string source = files.expand("passes/" + kernel + ".cl", prelude);
+    const std::string file = dump.empty() ? "" : dump + "/" + kernel + ".cl";
     if (!dump.empty()) {
       write_text_atomic(file, source);
-      write_text_atomic(dump + "/" + pass.name + ".options", build_options + "\n");
+      write_text_atomic(dump + "/" + kernel + ".options", build_options + "\n");
     }
     const auto lines = std::count(source.begin(), source.end(), '\n');
-    text += fmt::format("{:<10}{} lines{}\n", pass.name, lines,
+    text += fmt::format("{:<10}{} lines{}\n", kernel, lines,
                         file.empty() ? "" : ", written to " + file);
-    kernels.push_back({{"name", pass.name}, {"lines", lines}, {"file", file}});
+    kernels.push_back({{"name", kernel}, {"lines", lines}, {"file", file}});
   }
   if (common.wants_text()) print_result(text);
   write_json(common.json, {{"scene", s.name},

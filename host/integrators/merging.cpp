@@ -33,10 +33,8 @@ void add_eye_passes(bool connects, std::vector<Pass>& passes) {
                       {B::scene, B::film, B::light_vertices, B::eye_vertices, B::diag},
                       Domain::slice,
                       true});
-  passes.push_back({"merge",
-                    {B::scene, B::film, B::light_vertices, B::eye_vertices, B::grid, B::diag},
-                    Domain::slice,
-                    true});
+  passes.push_back(
+      {"merge", {B::scene, B::film, B::eye_vertices, B::grid, B::diag}, Domain::slice, true});
   passes.push_back({"film_add", {B::film, B::splat, B::diag}});
 }
 

@@ -59,6 +59,16 @@ void pack_phong(const Material& m, ::Material& out, FeatureSet& features) {
   out.survive = survive(largest(m.reflectance + m.specular));
 }
 
+/// GGX alpha of the widest spread lobe, or what a Phong lobe comes to [Walter07 5.2]; 1 where there
+/// are others.
+double lobe_width(const ::Material& m) {
+  if (m.kind == MATERIAL_ROUGH_CONDUCTOR || m.kind == MATERIAL_ROUGH_DIELECTRIC)
+    return double(m.alpha);
+  if (m.kind == MATERIAL_PHONG && m.reflectance.w == 0.0f)
+    return std::sqrt(2.0 / (double(m.eta_specular.w) + 2.0));
+  return 1.0;
+}
+
 /// What a dielectric of index n > 1 reflects of diffuse light from outside: the mean of Fresnel's
 /// reflectance weighted by the cosine, by Simpson's rule in the cosine (smooth, as n > 1).
 double diffuse_reflectance(double n) {
@@ -164,8 +174,7 @@ void flatten(const Material& m, double weight,
       throw InternalError("a mix has no lobes of its own");
   }
   out.lobes = lobes_of(out.kind);
-  if (out.kind == MATERIAL_ROUGH_CONDUCTOR || out.kind == MATERIAL_ROUGH_DIELECTRIC)
-    out.lobes |= out.alpha < ALPHA_GATHER ? LOBE_NARROW : 0u;
+  if (lobe_width(out) < double(ALPHA_GATHER)) out.lobes |= LOBE_NARROW;
   out.weight = 1.0f;
   return out;
 }

@@ -66,6 +66,15 @@ struct Integrator {
     return wishes.has(INTG_MERGE) && (wishes.has(INTG_CONNECT) || !wishes.has(INTG_NEE));
   }
 
+  /// Names of the kernels, each once.
+  std::vector<std::string> kernels() const {
+    std::vector<std::string> names;
+    for (const Pass& pass : passes)
+      if (std::find(names.begin(), names.end(), pass.name) == names.end())
+        names.push_back(pass.name);
+    return names;
+  }
+
   bool uses(Bundle bundle) const {
     for (const Pass& pass : passes)
       if (std::find(pass.bundles.begin(), pass.bundles.end(), bundle) != pass.bundles.end())

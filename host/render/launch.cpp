@@ -66,6 +66,11 @@ void check_radius(const PackedScene& scene, double asked) {
                   asked, least_radius(scene)));
 }
 
+Merging merging_for(const PackedScene& scene, const RenderOptions& options) {
+  return {options.radius.value_or(default_radius(scene, options.light_path_count())),
+          options.radius_alpha, least_radius(scene), options.merge_first_only};
+}
+
 void set_merging(Launch& launch, const Merging& merging) {
   constexpr double pi = 3.14159265358979323846;
   // [Knaus11]: as a function of the pass, so that passes may be done in any order.

@@ -5,6 +5,7 @@
 
 #include "pack/pack.h"
 #include "render/film.h"
+#include "render/options.h"
 
 namespace pellucid {
 
@@ -28,6 +29,9 @@ struct Merging {
   double first_radius = 0, alpha = 0.75, least_radius = 0;
   bool first_only = false;
 };
+
+/// As asked for, or by the scene's size and the light paths.
+Merging merging_for(const PackedScene& scene, const RenderOptions& options);
 
 /// What merging needs to know in launch.iteration, which alone decides on the radius.
 void set_merging(Launch& launch, const Merging& merging);

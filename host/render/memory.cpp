@@ -164,6 +164,9 @@ MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
                            ? "; it merges the vertices of all light paths at once: try fewer "
                              "--light-paths, --vertices compact, or more --memory"
                            : ""));
+  const double per_path = options.plan.vertices_per_path;
+  options.plan.vertices_per_path *= 2;  // what large bands would leave no room for
+  if (!integrator.uses(Bundle::grid) || !fits(1)) options.plan.vertices_per_path = per_path;
   int low = 1, high = window.height;  // bisection: what `low` rows need fits
   while (low < high) {
     const int middle = low + (high - low + 1) / 2;
@@ -179,6 +182,7 @@ MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
     const std::uint64_t row = total(sizes(2)) - total(sizes(1));
     low = int(std::min(std::uint64_t(low), std::max<std::uint64_t>(1, enough / row)));
   }
+  options.plan.vertices_per_path = per_path;
   plan.buffers = sizes(low);
   plan.slice_rows = slice_rows(options, std::size_t(low));
   for (int row = 0; row < window.height; row += low)

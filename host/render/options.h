@@ -39,7 +39,7 @@ struct RenderOptions {
   std::optional<double>
       radius;  ///< of merging in the first pass, world units; absent: by the scene
   bool merge_first_only = false;  ///< at the first vertex of eye paths that can
-  double radius_alpha = 0.75;     ///< how fast it shrinks: as pass^((alpha - 1) / 2) [Georgiev12]
+  double radius_alpha = 0.75;     ///< how fast it shrinks: as pass^((alpha - 1) / 2) [Knaus11]
   std::optional<std::uint64_t> memory;  ///< most bytes on the device
   std::uint64_t host_bytes = 0;         ///< what the host needs beside the film, as for checkpoints
   PlanOptions plan;

@@ -109,8 +109,7 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
       memory_limit_(memory.limit),
       slice_rows_(memory.slice_rows),
       merges_(integrator.uses(Bundle::grid)),
-      merging_{options.radius.value_or(default_radius(scene, options.light_path_count())),
-               options.radius_alpha, least_radius(scene), options.merge_first_only},
+      merging_(merging_for(scene, options)),
       grid_bits_(grid_bits_for(options)),
       buffers_(upload_scene(device_, scene)) {
   for (const auto& [name, size] : memory.buffers)

@@ -1,16 +1,16 @@
 // camera_trace: one eye path per pixel of a slice: emission that it meets, light samples, and
-// vertices stored for connections.
+// vertices stored for connections and merging.
 // Reads: scene, filter. Writes: samples [pixels of the tile], eye_vertices, eye_last, eye_first
 // (their number) [pixels of the slice], vertex_counts, layers, diag. Domain: pixels of the slice.
 // Atomics: vertex_counts, layers, diag. Next: vertex_scan, or film_add.
-// Flags: INTG_NEE, INTG_MIS, INTG_SPLAT, INTG_CONNECT, INTG_COMPACT, INTG_LAYERS, INTG_SOBOL,
-// INTG_FILTER.
+// Flags: INTG_NEE, INTG_MIS, INTG_SPLAT, INTG_CONNECT, INTG_MERGE, INTG_COMPACT, INTG_LAYERS,
+// INTG_SOBOL, INTG_FILTER.
 #include "passes/bundles.h"
 #include "passes/tile.h"
 #include "transport/path.h"
 
 __kernel void camera_trace(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
-#if INTG_CONNECT || INTG_MERGE
+#if INTG_VERTICES
                                EYE_VERTEX_PARAMS VERTEX_COUNT_PARAMS
 #endif
 #if INTG_LAYERS
@@ -22,7 +22,7 @@ __kernel void camera_trace(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
   SCENE_FROM_PARAMS
   uint pixel = launch.slice_first + index;
   TileSample s = tile_sample(launch, camera, filter_table, pixel);
-#if INTG_CONNECT || INTG_MERGE
+#if INTG_VERTICES
   VertexStore store = vertex_store_at(eye_vertices, &vertex_counts[1], launch.eye_capacity);
 #else
   VertexStore store = vertex_store_at(0, 0, 0u);
@@ -39,7 +39,7 @@ __kernel void camera_trace(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
                                  &store, &rays);
   if (pixel >= launch.gather_first)
     samples[pixel] = (float4)(radiance.x, radiance.y, radiance.z, (float)rays);
-#if INTG_CONNECT || INTG_MERGE
+#if INTG_VERTICES
   eye_last[index] = store.last;
   eye_first[index] = store.count;
 #endif

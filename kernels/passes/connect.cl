@@ -1,7 +1,7 @@
 // connect: joins each vertex of a pixel's eye path with each of the light path paired with it.
 // Reads: scene, light and eye vertices with their order. Writes: samples [pixels of the tile]
 // (adds), layers, diag. Domain: pixels of the slice. Atomics: layers, diag. Next: film_add.
-// Flags: INTG_CONNECT, INTG_COMPACT, INTG_LAYERS.
+// Flags: INTG_CONNECT, INTG_MERGE, INTG_NEE, INTG_COMPACT, INTG_LAYERS.
 #include "passes/bundles.h"
 #include "shared/pairing.h"
 #include "transport/connect.h"
@@ -27,7 +27,7 @@ __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PA
     __global const StoredVertex* eye_at = (__global const StoredVertex*)eye_vertices;
     EndVertex eye = vertex_unpack(&scene_data, eye_at[eye_order[i]], 0);
 #if INTG_MERGE
-    eye.partials.trust = merge_trust(launch, i == eye_first[index], 0);
+    eye.partials.trust = merge_trust(launch, eye.partials.trust > REAL(0.0), 0);
 #endif
     for (uint j = light_first[path]; j < light_end; ++j) {
       __global const StoredVertex* light_at = (__global const StoredVertex*)light_vertices;

@@ -1,6 +1,6 @@
 // film_add: folds an iteration's samples (and its splats, if the method makes any) into the film.
 // Reads: samples [pixels], splats. Writes: film [pixels], splats (cleared), diag. Domain: pixels.
-// Flags: INTG_SPLAT, INTG_SOBOL. Atomics: diag only. Next: the next iteration.
+// Flags: INTG_SPLAT, INTG_MERGE, INTG_SOBOL. Atomics: diag only. Next: the next iteration.
 #include "film/film.h"
 #include "passes/bundles.h"
 

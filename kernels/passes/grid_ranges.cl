@@ -1,7 +1,7 @@
 // grid_ranges: where each cell's photons begin and end, and what merging needs of them in that
 // order. Reads: light_vertices, light_order, grid_pairs (sorted, after an even number of digits).
 // Writes: grid_cells, photon_positions, photons. Domain: photons. Atomics: none. Next: merge.
-// Flags: INTG_COMPACT.
+// Flags: INTG_MERGE, INTG_COMPACT.
 #include "passes/bundles.h"
 #include "transport/stored_vertex.h"
 

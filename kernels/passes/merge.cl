@@ -1,7 +1,7 @@
 // merge: gathers the light vertices around every vertex of a pixel's eye path.
 // Reads: scene, eye vertices with their order, photon_positions, photons, grid_cells. Writes:
 // samples [pixels of the tile] (adds), layers, diag. Domain: pixels of the slice. Atomics: layers,
-// diag. Next: film_add. Flags: INTG_CONNECT, INTG_COMPACT, INTG_LAYERS.
+// diag. Next: film_add. Flags: INTG_MERGE, INTG_NEE, INTG_CONNECT, INTG_COMPACT, INTG_LAYERS.
 #include "passes/bundles.h"
 #if INTG_MERGE
 #include "transport/merge.h"
@@ -54,7 +54,7 @@ INLINE void paint_cell(Launch launch, __global const F4* photon_positions,
 }
 #endif
 
-__kernel void merge(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARAMS GRID_PARAMS
+__kernel void merge(SCENE_PARAMS FILM_PARAMS EYE_VERTEX_PARAMS GRID_PARAMS
 #if INTG_LAYERS
                         LAYER_PARAMS
 #endif
@@ -65,14 +65,18 @@ __kernel void merge(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PARA
   uint pixel = launch.slice_first + index;
   real3 sum = (float3)(0.0f);
   for (uint i = eye_first[index]; i < eye_first[index + 1u]; ++i) {
-    int first = i == eye_first[index];
-    if (!first && launch.mis_deep == 0.0f) break;
     __global const StoredVertex* eye_at = (__global const StoredVertex*)eye_vertices;
     EndVertex eye = vertex_unpack(&scene_data, eye_at[eye_order[i]], 0);
+    // Vertices are packed: what grazed a surface may come back from behind it.
+    if (eye.v.black) continue;
+#if INTG_PARTIALS
+    int first = eye.partials.trust > REAL(0.0);
+    if (!first && launch.mis_deep == 0.0f) continue;
     eye.partials.trust = merge_trust(launch, first, 0);
+#endif
 #if INTG_LAYERS
     LayerSink sink = layer_sink(layers, diag, launch, pixel);
-    sink.first = first;
+    sink.first = i == eye_first[index];
     if (sink.first) paint_cell(launch, photon_positions, grid_cells, eye.v.surface.p, sink);
 #endif
     sum += merge_around(&scene_data, launch, photon_positions, photons, grid_cells,

@@ -1,7 +1,7 @@
 // vertex_order: lists the slots of stored vertices sub-path by sub-path, each from its start.
 // Reads: light_vertices, light_last, light_first; the same of the eye's side. Writes: light_order,
 // eye_order. Domain: light paths of the launch, then pixels of the slice. Atomics: none. Next:
-// connect.
+// grid_keys after light_trace alone, else connect or merge.
 // Flags: INTG_COMPACT.
 #include "passes/bundles.h"
 #include "transport/vertex_format.h"

@@ -81,8 +81,8 @@
 
 /// A merge after the first weighs this share of what its density says. The photons around a vertex
 /// are met all at once, and where a walk comes upon a bright spot, rarely: they are no independent
-/// samples, which weights take them for ([Jendersie18], [Grittmann21]). Every path with a merge
-/// after the first has one there, too, so nothing depends on them.
+/// samples, which weights take them for ([Jendersie18], [Grittmann21]). A path with a merge
+/// after the first spread scattering from the camera has one there, too: nothing depends on others.
 #define MERGE_DEEP_TRUST 0.05f
 
 /// Photons merge where their surface faces the same way, within 60 degrees: others lie round a

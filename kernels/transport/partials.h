@@ -43,9 +43,9 @@ INLINE Partials partials_start(real dVCM, real dVC) {
 }
 
 #if INTG_MERGE
-/// Share of its density that a merge weighs: at the first vertex of an eye path that can, at
-/// others, and of light that comes straight from its source, which light samples bring with less
-/// noise.
+/// Share of its density that a merge weighs: full where delta scatterings alone have led from the
+/// camera; less at other vertices; nothing for light that comes straight from its source, which
+/// light samples bring with less noise.
 INLINE real merge_trust(Launch launch, int first, int direct) {
 #if INTG_NEE
   if (direct) return REAL(0.0);

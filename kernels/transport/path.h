@@ -142,7 +142,7 @@ INLINE void walk_keep(PRIVATE VertexStore* store, Launch launch, uint depth,
 #else
   if (bsdf_is_delta(v->material)) return;
 #endif
-  if (depth + (INTG_MERGE ? 1u : 2u) > launch.max_depth) return;
+  if (depth + (INTG_NEE ? 2u : 1u) > launch.max_depth) return;  // light samples end the others
   vertex_store(store, v, walk->beta, walk->partials, depth);
 #if INTG_RADIUS
   walk_put_radius(launch, walk);
@@ -162,7 +162,7 @@ INLINE int walk_ends_spread(PRIVATE const Vertex* v) {
 }
 
 /// Radiance [W/(m^2 sr)] along a camera ray; *rays receives the number of rays traced. `store`
-/// takes the vertices that light paths will be connected to (unused without INTG_CONNECT).
+/// takes the vertices that light paths will be connected to (unused without INTG_VERTICES).
 INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rng, Ray camera_ray,
                            real pdf_camera,
 #if INTG_LAYERS

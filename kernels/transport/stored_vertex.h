@@ -42,13 +42,32 @@ INLINE F4 to_f4(real3 v, real w) {
   return f;
 }
 
+/// In the flags of a stored vertex, where nobody asks for emission: all scatterings of its walk
+/// from the camera were by delta lobes.
+#define VERTEX_FIRST SHAPE_EMIT_FRONT
+
+INLINE uint stored_flags(uint flags, Partials q) {
+#if INTG_MERGE
+  flags = (flags & ~VERTEX_FIRST) | (q.trust == REAL(1.0) ? VERTEX_FIRST : 0u);
+#endif
+  return flags;
+}
+
+/// Partials of an eye's vertex that comes back with these flags: only Launch knows what others are
+/// worth.
+INLINE void restore_trust(uint flags, PRIVATE Partials* q) {
+#if INTG_MERGE
+  q->trust = flags & VERTEX_FIRST ? REAL(1.0) : REAL(0.0);
+#endif
+}
+
 #if INTG_COMPACT
 INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q, uint depth) {
   StoredVertex s;
   s.x = (float)v->surface.p.x;
   s.y = (float)v->surface.p.y;
   s.z = (float)v->surface.p.z;
-  s.material = v->surface.material | (v->surface.flags << COMPACT_MATERIAL_BITS) |
+  s.material = v->surface.material | (stored_flags(v->surface.flags, q) << COMPACT_MATERIAL_BITS) |
                (float_exponent_above((float)v->surface.offset) << 24);
   s.ng = octahedral_pack(v->surface.ng);
   s.ns = octahedral_pack(v->surface.ns);
@@ -82,6 +101,7 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
   e.beta = rgbe_unpack(s.beta);
   e.partials = partials_start((real)float_from_bits(s.dVCM & 0xffffff00u),
                               (real)float_from_bits(s.dVC & 0xffffff00u));
+  restore_trust(surface.flags, &e.partials);
   e.depth = (s.dVCM & 0xffu) | ((s.dVC & 0xffu) << 8);
   return e;
 }
@@ -99,7 +119,7 @@ INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q,
   s.wo_dVCM = to_f4(to_world(v->frame, v->context.wo), q.dVCM);
   s.beta_dVC = to_f4(beta, partials_dVC(q));
   s.material = v->surface.material;
-  s.flags = v->surface.flags;
+  s.flags = stored_flags(v->surface.flags, q);
   s.depth = depth;
   return s;
 }
@@ -121,6 +141,7 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
   e.v = vertex_at(scene, surface, load3(s.wo_dVCM), importance);
   e.beta = load3(s.beta_dVC);
   e.partials = partials_start((real)s.wo_dVCM.w, (real)s.beta_dVC.w);
+  restore_trust(surface.flags, &e.partials);
   e.depth = s.depth;
   return e;
 }

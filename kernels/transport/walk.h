@@ -78,7 +78,7 @@ INLINE void walk_leave(PRIVATE const SceneData* scene, Launch launch, PRIVATE co
     partials_scatter(launch, &walk->partials, s.pdf_w * survive, reverse, cos_g);
   }
 #if INTG_MERGE
-  if (!bsdf_is_delta(v->material)) walk->partials.trust = merge_trust(launch, 0, 0);
+  if (!s.delta) walk->partials.trust = merge_trust(launch, 0, 0);
 #endif
 }
 #endif

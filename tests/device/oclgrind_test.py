@@ -17,7 +17,7 @@ EVERYTHING = str(pathlib.Path(__file__).parents[1] / "render/scenes/everything.j
 RUNS = [("path", "gallery"), ("nee", "four-balls-sun"), ("reference", "four-balls-background"),
         ("naive", "cornell-box"), ("light", "cornell-box"), ("bdpt", "four-balls-background"),
         ("bdpt", "textures", "--vertices", "compact", "--aov", "length,tech,light-vertices"),
-        ("sppm", "four-balls-ceiling", "--aov", "tech"), ("vcm", "textures", "--vertices", "compact")]
+        ("sppm", "four-balls-ceiling", "--aov", "tech,photons,cells,radius"), ("vcm", "textures", "--vertices", "compact")]
 failures = []
 
 

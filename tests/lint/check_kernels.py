@@ -21,7 +21,8 @@ METHODS = [[], ["INTG_NEE", "INTG_SOBOL"], ["INTG_NEE", "INTG_MIS", "INTG_SOBOL"
            ["INTG_NEE", "INTG_MIS", "INTG_SPLAT", "INTG_CONNECT", "INTG_SOBOL", "INTG_FILTER"],
            ["INTG_NEE", "INTG_MIS", "INTG_SPLAT", "INTG_CONNECT", "INTG_COMPACT", "INTG_LAYERS"],
            ["INTG_NEE", "INTG_MIS", "INTG_MERGE", "INTG_SOBOL"], ["INTG_MERGE", "INTG_COMPACT"],
-           ["INTG_NEE", "INTG_MIS", "INTG_SPLAT", "INTG_CONNECT", "INTG_MERGE", "INTG_COMPACT"]]
+           ["INTG_NEE", "INTG_MIS", "INTG_SPLAT", "INTG_CONNECT", "INTG_MERGE", "INTG_COMPACT"],
+           ["INTG_NEE", "INTG_MIS", "INTG_SPLAT", "INTG_CONNECT", "INTG_MERGE", "INTG_LAYERS"]]
 WARNINGS = ["-Wall", "-Wextra", "-Werror", "-Wdouble-promotion", "-Wundef", "-Wconversion",
             "-Wno-sign-conversion", "-Wno-implicit-int-float-conversion", "-Wno-unused-parameter",
             "-Wno-unused-function"]

@@ -9,7 +9,8 @@
 namespace pellucid::test {
 namespace {
 
-const char* const methods[] = {"naive", "nee", "path", "reference", "light", "bdpt", "sppm", "vcm"};
+const char* const methods[] = {"naive", "nee",  "path", "reference", "light",
+                               "bdpt",  "sppm", "bpm",  "vcm"};
 /// One for each set of passes, for what every method would be compiled anew for: `naive`, `nee` and
 /// `reference` are the pass of `path`, and trace rays and number work items by the same lines.
 const char* const one_per_pass[] = {"path", "light", "bdpt", "sppm", "vcm"};

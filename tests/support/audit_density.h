@@ -72,10 +72,10 @@ class PathDensities {
     for (std::size_t j = i; j <= k_; ++j) p *= from_eye(j);
     return p;
   }
-  /// Nothing between point i and the camera could have been merged.
+  /// Between point i and the camera there are delta scatterings alone.
   bool merged_first(std::size_t i) const {
     for (std::size_t j = i; j < k_; ++j)
-      if (!bsdf_is_delta(twin_.packed.materials[path_.nodes[j].surface.material])) return false;
+      if (!path_.nodes[j].delta) return false;
     return true;
   }
   double from_light(std::size_t i) const;

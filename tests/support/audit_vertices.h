@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <gtest/gtest.h>
+
 #include "support/audit_paths.h"
 #include "support/audit_scenes.h"
 
@@ -43,6 +45,16 @@ inline EndVertex stored(const TwinScene& twin, const EndVertex& end) {
   back.partials.trust = end.partials.trust;  // passes know it by the vertex' place in its path
 #endif
   return back;
+}
+
+/// All flags are back; where merges are weighed, one tells first vertices instead of emission.
+inline void expect_flags(const EndVertex& a, const EndVertex& b) {
+#ifdef TWIN_MERGE
+  EXPECT_EQ(a.v.surface.flags & ~VERTEX_FIRST, b.v.surface.flags & ~VERTEX_FIRST);
+  EXPECT_EQ(a.partials.trust == real(1), (b.v.surface.flags & VERTEX_FIRST) != 0u);
+#else
+  EXPECT_EQ(a.v.surface.flags, b.v.surface.flags);
+#endif
 }
 
 /// The light vertex as if its walk had come to where the eye's vertex is.
@@ -96,7 +108,7 @@ inline Launch storage_launch() {
   launch.seed = 7;
   launch.max_depth = 12;
   launch.mis = MIS_BALANCE;
-  if (merges) launch.mis_vm = launch.mis_deep = launch.merge_scale = 1;
+  if (merges) launch.mis_vm = launch.merge_scale = 1, launch.mis_deep = 0.5f;
   return launch;
 }
 

@@ -30,7 +30,7 @@ void expect_close(const EndVertex& a, const EndVertex& b) {
   EXPECT_NEAR(double(b.v.surface.u), double(a.v.surface.u), 1e-3);
   EXPECT_NEAR(double(b.v.surface.v), double(a.v.surface.v), 1e-3);
   EXPECT_EQ(a.v.surface.material, b.v.surface.material);
-  EXPECT_EQ(a.v.surface.flags, b.v.surface.flags);
+  expect_flags(a, b);
   EXPECT_EQ(a.depth, b.depth);
 }
 

@@ -28,7 +28,7 @@ void expect_same(const EndVertex& a, const EndVertex& b) {
   expect_float(a.v.surface.u, b.v.surface.u);
   expect_float(a.v.surface.v, b.v.surface.v);
   EXPECT_EQ(a.v.surface.material, b.v.surface.material);
-  EXPECT_EQ(a.v.surface.flags, b.v.surface.flags);
+  expect_flags(a, b);
   EXPECT_EQ(a.depth, b.depth);
   EXPECT_EQ(a.v.context.importance, b.v.context.importance);
   // To the world and back: some roundoffs of 1.
