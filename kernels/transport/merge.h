@@ -14,12 +14,12 @@ typedef struct Merge {
 } Merge;
 
 /// The radiance that the photon brings to `eye` if they were one point, over `launch.merge_scale`.
-/// Photons count power through the surface that they met; f |wi.ns| over its |wi.ng| makes radiance
-/// of it. 0 where nothing is scattered.
+/// Photons count power through the geometric surface; f |wi.ns| / |wi.ng| makes radiance of it. Not
+/// by their own normal: on round surfaces that ratio has no bound. 0 where nothing is scattered.
 INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE const EndVertex* eye,
                         Photon photon, PRIVATE Merge* merge) {
-  real3 ng = REAL3(photon.ng_x, photon.ng_y, photon.ng_z), wi = load3(photon.wi_dVCM);
-  if (dot3(ng, eye->v.surface.ng) < (real)MERGE_COS_MIN) return 0;
+  real3 ng = eye->v.surface.ng, wi = load3(photon.wi_dVCM);
+  if (dot3(ng, REAL3(photon.ng_x, photon.ng_y, photon.ng_z)) < (real)MERGE_COS_MIN) return 0;
   real cos_wi;
   BsdfEval e = vertex_eval(scene, &eye->v, wi, &cos_wi);
   if (is_black(e.f)) return 0;

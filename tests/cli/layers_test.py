@@ -87,7 +87,8 @@ def test_atlas():
 
 def test_grid():
     """Photons, cells and radius: channels, the picture, and the same out of two halves."""
-    grid = ["room.json", "-q", "--deterministic", "-i", "sppm", "--max-depth", "5"]
+    grid = ["room.json", "-q", "--deterministic", "-i", "bpm", "--max-depth", "5",
+            "--radius", "0.5"]
     expect(0, [*grid, "--spp", "6", "-o", "grid.exr", "--grid", "grid.png", "--atlas", "atlas.png"])
     channels = document(["info", "grid.exr"])["channels"]
     check(channels[-5:] == ["photons", "cells.photons", "cells.bucket", "cells.parity", "radius"],
@@ -106,8 +107,8 @@ def test_grid():
     check(read_bytes("grid.png") == read_bytes("halves.png"), "and so is the grid")
     for bad in ("a.ckpt", "halves.exr", "x.exr"):
         expect(2, ["merge", "a.ckpt", "b.ckpt", "-o", "halves.exr", "--grid", bad], "--grid")
-    expect(0, [*grid, "--passes", "0:1", "--checkpoint", "bare.ckpt", "-o", "x.exr"])
-    expect(2, ["merge", "bare.ckpt", "-o", "x.exr", "--grid", "x.png"], "--grid", "photons,cells,radius")
+    expect(0, [*grid, "--passes", "0:1", "--checkpoint", "gridless.ckpt", "-o", "x.exr"])
+    expect(2, ["merge", "gridless.ckpt", "-o", "x.exr", "--grid", "x.png"], "--grid", "photons,cells,radius")
 
 
 def test_usage():
