@@ -131,12 +131,13 @@ ExitCode BenchCommand::run_sampler(const CommonOptions& common) const {
   return ExitCode::done;
 }
 
-/// `bdpt`, or where it is blind to something, `vcm`.
-static const Integrator& unbiased_if_it_sees_all(const PackedScene& scene,
-                                                 std::optional<unsigned> max_depth) {
+/// `bdpt`, or where it is blind to something or finds it by chance alone, `vcm`.
+static const Integrator& referee_of(const PackedScene& scene, std::optional<unsigned> max_depth) {
   const Integrator& bdpt = find_integrator("bdpt");
-  const bool blind = !unreachable_paths(bdpt, optics_of(scene, max_depth)).empty();
-  return blind ? find_integrator("vcm") : bdpt;
+  const SceneOptics optics = optics_of(scene, max_depth);
+  const bool aims_at_all =
+      unreachable_paths(bdpt, optics).empty() && chance_paths(bdpt, optics).empty();
+  return aims_at_all ? bdpt : find_integrator("vcm");
 }
 
 ExitCode BenchCommand::run_methods(const CommonOptions& common) const {
@@ -166,8 +167,7 @@ ExitCode BenchCommand::run_methods(const CommonOptions& common) const {
   options.plan.kernel_dir = kernel_dir;
   options.progress = [&](const std::string& text) { progress.update(text); };
   const nlohmann::json document = methods_document(
-      bench_methods(target, std::move(scenes), methods, unbiased_if_it_sees_all, options),
-      target.info());
+      bench_methods(target, std::move(scenes), methods, referee_of, options), target.info());
   if (common.wants_text()) print_result(methods_text(document));
   write_json(common.json, document);
   return ExitCode::done;
