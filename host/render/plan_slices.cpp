@@ -79,7 +79,6 @@ void Plan::run_slices(Launch launch) {
       slice_rows_ = rows / 2;  // what was splatted and gathered stays; the rest is done again
       continue;
     }
-    run_slice_passes(launch, true);
     run_slice_passes(launch, false);
     row += rows;
   }

@@ -11,6 +11,7 @@ __kernel void grid_ranges(LIGHT_VERTEX_PARAMS GRID_PARAMS const Launch launch) {
   if (i >= launch.photon_count) return;
   __global const uint* pairs = grid_pairs;
   uint key = pairs[2 * (size_t)i];
+  if (key == NONE) return;  // all of them stand behind the last cell
   if (i == 0u || pairs[2 * (size_t)i - 2u] != key) grid_cells[2 * key] = i;
   if (i + 1u == launch.photon_count || pairs[2 * (size_t)i + 2u] != key)
     grid_cells[2 * key + 1u] = i + 1u;

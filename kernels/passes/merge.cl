@@ -25,9 +25,6 @@ INLINE real3 merge_around(PRIVATE const SceneData* scene, Launch launch,
     Photon photon = photons[i];
     uint depth = eye->depth + photon.depth;
     if (depth > launch.max_depth) continue;
-#if INTG_NEE
-    if (photon.depth == 1u) continue;  // light samples have brought it
-#endif
     Merge merge;
     if (!merge_photon(scene, launch, eye, photon, &merge)) continue;
     sum += merge.value * merge.weight;

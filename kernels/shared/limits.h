@@ -62,9 +62,10 @@
 #define SORT_PASSES 2u
 #define SORT_BLOCKS 16u
 
-/// The photon grid has 2^this cells at least and at most: what the sort can tell apart.
+/// The photon grid has 2^this cells at least and at most: what the sort can tell apart, with NONE
+/// for what is in no cell behind them all.
 #define GRID_BITS_MIN 6u
-#define GRID_BITS_MAX 20u
+#define GRID_BITS_MAX 19u
 
 /// How far photons are looked for, over the radius: 1 + 2^-20. Rounding lets photons count that are
 /// 4 roundoffs farther away than it, and may shorten this by one (transport/grid.h).

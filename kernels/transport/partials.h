@@ -13,6 +13,9 @@
 /// where it goes no further, so that its strategies never meet.
 #define INTG_PARTIALS (INTG_CONNECT || (INTG_MERGE && !INTG_NEE))
 
+/// Merging leaves light straight from its source to light samples.
+#define INTG_DIRECT_APART (INTG_MERGE && INTG_NEE)
+
 /// What a sub-path knows of the strategies that would have drawn its vertices from the other end.
 /// dVC is a sum over all its vertices, so it may leave the range of float on the way and come back.
 /// Merges need no third quantity: where connections are weighed against them, too, [Georgiev12]'s
@@ -22,7 +25,9 @@ typedef struct Partials {
   real dVC_scaled;  // dVC over 2^(64 scale)
   uint scale;
 #if INTG_MERGE
-  real trust;       // share of Launch.mis_vm that a merge at this side's last vertex weighs
+  real trust;  // share of Launch.mis_vm that a merge at this side's last vertex weighs
+#endif
+#if INTG_DIRECT_APART
   real dVC_direct;  // dVC_scaled without a merge at the vertex before: a light here hides it
 #endif
 } Partials;
@@ -37,6 +42,8 @@ INLINE Partials partials_start(real dVCM, real dVC) {
   q.scale = 0u;
 #if INTG_MERGE
   q.trust = REAL(0.0);
+#endif
+#if INTG_DIRECT_APART
   q.dVC_direct = dVC;
 #endif
   return q;
@@ -74,7 +81,7 @@ INLINE real partials_dVC(Partials q) {
 }
 /// The same where the walk has come upon a light: the vertex before is not merged with its light.
 INLINE real partials_dVC_emission(Partials q) {
-#if INTG_MERGE && INTG_NEE
+#if INTG_DIRECT_APART
   return partials_unscaled(q, q.dVC_direct);
 #else
   return partials_dVC(q);
@@ -92,7 +99,7 @@ INLINE void partials_rescale(PRIVATE Partials* q) {
     --q->scale;
   }
   q->dVC_scaled = r_min(q->dVC_scaled, REAL_MAX) * factor;
-#if INTG_MERGE
+#if INTG_DIRECT_APART
   q->dVC_direct = r_min(q->dVC_direct, REAL_MAX) * factor;
 #endif
 }
@@ -149,7 +156,7 @@ INLINE void partials_scatter(Launch launch, PRIVATE Partials* q, real forward, r
   real before = q->dVC_scaled * reverse, here = partials_here(launch, *q);
   if (before == REAL(0.0)) q->scale = 0u;  // nothing is left of what has made it large
   real unit = q->scale == 0u ? REAL(1.0) : q->scale == 1u ? PARTIALS_SCALE_INV : REAL(0.0);
-#if INTG_MERGE
+#if INTG_DIRECT_APART
   q->dVC_direct = partial_sum(launch.mis, before, q->dVCM * unit) * cos_g * inv;
 #endif
   q->dVC_scaled = partial_sum(launch.mis, before, here * unit) * cos_g * inv;
@@ -162,7 +169,7 @@ INLINE void partials_scatter(Launch launch, PRIVATE Partials* q, real forward, r
 INLINE void partials_scatter_delta(PRIVATE Partials* q, real reverse, real cos_g) {
   q->dVCM = REAL(0.0);
   q->dVC_scaled = q->dVC_scaled * cos_g * reverse;
-#if INTG_MERGE
+#if INTG_DIRECT_APART
   q->dVC_direct = q->dVC_scaled;  // light that comes by way of this lobe may be merged before
 #endif
   partials_rescale(q);

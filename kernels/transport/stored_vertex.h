@@ -147,27 +147,14 @@ INLINE EndVertex vertex_unpack(PRIVATE const SceneData* scene, StoredVertex s, i
 }
 #endif
 
-#if INTG_MERGE
-/// What merging needs of a light vertex in memory, beside its position.
-INLINE Photon photon_of(GLOBAL const StoredVertex* s) {
-  Photon photon;
+/// Segments of its sub-path up to a vertex in memory.
+INLINE uint stored_depth(GLOBAL const StoredVertex* s) {
 #if INTG_COMPACT
-  photon.wi_dVCM = to_f4(octahedral_unpack(s->wo), (real)float_from_bits(s->dVCM & 0xffffff00u));
-  photon.beta_dVC = to_f4(rgbe_unpack(s->beta), (real)float_from_bits(s->dVC & 0xffffff00u));
-  real3 ng = octahedral_unpack(s->ng);
-  photon.depth = (s->dVCM & 0xffu) | ((s->dVC & 0xffu) << 8);
+  return (s->dVCM & 0xffu) | ((s->dVC & 0xffu) << 8);
 #else
-  photon.wi_dVCM = s->wo_dVCM;
-  photon.beta_dVC = s->beta_dVC;
-  real3 ng = load3(s->ng_u);
-  photon.depth = s->depth;
+  return s->depth;
 #endif
-  photon.ng_x = (float)ng.x;
-  photon.ng_y = (float)ng.y;
-  photon.ng_z = (float)ng.z;
-  return photon;
 }
-#endif
 
 /// Where a vertex in memory is.
 INLINE real3 stored_position(GLOBAL const StoredVertex* s) {
@@ -177,6 +164,33 @@ INLINE real3 stored_position(GLOBAL const StoredVertex* s) {
   return load3(s->p_offset);
 #endif
 }
+
+#if INTG_MERGE
+/// Whether a light vertex is merged: what comes straight from its source is brought by light
+/// samples where there are any.
+INLINE int stored_merges(GLOBAL const StoredVertex* s) {
+  return !INTG_NEE || stored_depth(s) > 1u;
+}
+
+/// What merging needs of a light vertex in memory, beside its position.
+INLINE Photon photon_of(GLOBAL const StoredVertex* s) {
+  Photon photon;
+#if INTG_COMPACT
+  photon.wi_dVCM = to_f4(octahedral_unpack(s->wo), (real)float_from_bits(s->dVCM & 0xffffff00u));
+  photon.beta_dVC = to_f4(rgbe_unpack(s->beta), (real)float_from_bits(s->dVC & 0xffffff00u));
+  real3 ng = octahedral_unpack(s->ng);
+#else
+  photon.wi_dVCM = s->wo_dVCM;
+  photon.beta_dVC = s->beta_dVC;
+  real3 ng = load3(s->ng_u);
+#endif
+  photon.ng_x = (float)ng.x;
+  photon.ng_y = (float)ng.y;
+  photon.ng_z = (float)ng.z;
+  photon.depth = stored_depth(s);
+  return photon;
+}
+#endif
 
 /// Appends a vertex to the sub-path. Which slot it gets depends on the order of work; which place
 /// in its path does not.

@@ -43,10 +43,17 @@ RenderOptions options_for(PassRange passes, double radius = first_radius) {
   return o;
 }
 
+/// `bpm`, which merges light straight from the sun, too; its light vertices are splatted besides.
+Integrator photons_and_vertices() {
+  Integrator method = find_integrator("bpm");
+  method.wishes.set(INTG_SPLAT);
+  return with_layers(method, LAYERS_VERTICES | LAYERS_GRID, 1);
+}
+
 /// With light vertices beside the layers of the grid: the camera sees all of the floor's.
 Film render(const Scene& scene, const RenderOptions& options, std::optional<Film> start = {}) {
   const PackedScene packed = pack_scene(scene, {simd_width_for(test_device().info())});
-  const Integrator method = with_layers(find_integrator("vcm"), LAYERS_VERTICES | LAYERS_GRID, 1);
+  const Integrator method = photons_and_vertices();
   Session session(test_device(), packed, method, options, std::move(start));
   EXPECT_TRUE(session.run({}));
   EXPECT_EQ(error_count(session.counters()), 0u) << describe_counters(session.counters());
