@@ -167,6 +167,11 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
   app.add_option("--sampler", f.sampler,
                  "sobol (default): scrambled Sobol points, less noise; random: independent numbers")
       ->type_name("sobol|random");
+  app.add_option(
+         "--float", f.float_mode,
+         "arithmetic of kernels: strict (default), every operation rounded as written; mad, "
+         "products and sums may be one; fast, and the compiler may reorder")
+      ->type_name(fmt::format("{}", fmt::join(float_mode_names(), "|")));
   app.add_option("--filter", f.filter, "pixel filter (default: the scene's, else gaussian)")
       ->type_name(fmt::format("{}", fmt::join(pixel_filter_names(), "|")));
   app.add_option("--light-paths", f.light_paths,
@@ -319,6 +324,7 @@ RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) con
   o.mis = parse_mis(mis, method);
   set_sub_paths(*this, method, o);
   o.plan.sampler = find_sampler(sampler);
+  o.plan.float_mode = find_float_mode(float_mode);
   o.plan.extra_features = parse_feature_request(features);
   o.plan.kernel_dir = kernel_dir;
   o.plan.group = group;
@@ -353,6 +359,7 @@ void RenderFlags::check() const {
   if (!atlas.empty()) check_display_type("--atlas", atlas);
   if (!grid.empty()) check_display_type("--grid", grid);
   one_of("--sampler", sampler, sampler_names());
+  one_of("--float", float_mode, float_mode_names());
   display.transform();
 }
 

@@ -66,6 +66,8 @@ std::string settings_text(const Scene& scene, const RenderOptions& o) {
   if (o.radius_alpha != RenderOptions().radius_alpha)
     text += fmt::format(" radius-alpha {}", o.radius_alpha);
   if (o.merge_first_only) text += " merges first";
+  if (o.plan.float_mode != FloatMode::strict)
+    text += " float " + float_mode_name(o.plan.float_mode);
   if (o.plan.compact_vertices) text += " vertices compact";
   return text;
 }
@@ -90,7 +92,7 @@ Evidence lasting_evidence(const RenderFacts& f) {
   meta["pellucid:unreachable"] = unreachable.empty() ? "nothing" : join(unreachable, "; ");
   meta["pellucid:seed"] = std::to_string(f.options.seed);
   meta["pellucid:features"] = f.session->plan().specialisation().features.describe();
-  meta["pellucid:floatMode"] = std::string("strict");
+  meta["pellucid:floatMode"] = float_mode_name(f.options.plan.float_mode);
   meta["pellucid:device"] = f.device->name;
   meta["pellucid:driver"] = f.device->platform_name + " " + f.device->driver;
   return meta;

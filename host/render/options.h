@@ -7,6 +7,7 @@
 
 #include "pack/features.h"
 #include "render/film.h"
+#include "render/float_mode.h"
 #include "render/sampler.h"
 
 namespace pellucid {
@@ -17,6 +18,7 @@ constexpr std::size_t default_group = 64;
 
 struct PlanOptions {
   Sampler sampler = Sampler::sobol;
+  FloatMode float_mode = FloatMode::strict;
   FeatureSet extra_features;  ///< on top of what the scene needs
   std::string kernel_dir;     ///< read kernels from here instead of the binary
   std::size_t group = 0;      ///< work-items per group; 0: default_group or what the kernel can

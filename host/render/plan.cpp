@@ -95,6 +95,7 @@ Specialisation specialise(const PackedScene& scene, const Integrator& integrator
   s.simd_builtins = options.simd_builtins;
   s.int64_atomics = device.int64_atomics && options.int64_atomics;
   s.rounded_division = device.rounded_division;
+  s.float_mode = options.float_mode;
   return s;
 }
 

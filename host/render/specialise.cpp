@@ -51,14 +51,16 @@ std::string prelude_of(const Specialisation& s) {
   define("SIMD_WIDTH", static_cast<unsigned>(s.simd_width));
   define("SIMD_BUILTINS", s.simd_builtins);
   define("DEV_INT64_ATOMICS", s.int64_atomics);
+  define("FLOAT_CONTRACT", s.float_mode != FloatMode::strict);
   if (s.int64_atomics) text += "#pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable\n";
   return text;
 }
 
 std::string options_of(const Specialisation& s) {
   std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
-  if (s.rounded_division) options += " -cl-fp32-correctly-rounded-divide-sqrt";
-  return options;
+  if (s.rounded_division && s.float_mode != FloatMode::fast)
+    options += " -cl-fp32-correctly-rounded-divide-sqrt";
+  return options + float_mode_options(s.float_mode);
 }
 
 }  // namespace pellucid

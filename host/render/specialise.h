@@ -6,6 +6,7 @@
 #include "cl/device.h"
 #include "cl/sources.h"
 #include "pack/pack.h"
+#include "render/float_mode.h"
 
 namespace pellucid {
 
@@ -16,7 +17,8 @@ struct Specialisation {
   uint stack_bound = 0;       ///< entries needed; rounded up so that similar scenes share programs
   bool simd_builtins = true;  ///< x86 compare-to-mask instructions where the compiler has them
   bool int64_atomics = false;
-  bool rounded_division = false;
+  bool rounded_division = false;  ///< the device can be asked for it
+  FloatMode float_mode = FloatMode::strict;
 };
 
 /// Node width for a device: its native float vector, within what the layout offers.

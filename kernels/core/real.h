@@ -6,8 +6,15 @@
 #include "shared/platform.h"
 
 #if PELLUCID_DEVICE
-// PoCL contracts a*b+c by default; edge functions and differences of products must not be.
-#pragma OPENCL FP_CONTRACT OFF
+// PoCL contracts a*b+c by default, which --float mad allows. Where rays meet shapes
+// nothing is contracted in any mode: EXACT_BEGIN and EXACT_END stand around that.
+#define EXACT_BEGIN _Pragma("OPENCL FP_CONTRACT OFF")
+#if FLOAT_CONTRACT
+#define EXACT_END _Pragma("OPENCL FP_CONTRACT ON")
+#else
+#define EXACT_END EXACT_BEGIN
+#endif
+EXACT_END
 typedef float real;
 typedef float3 real3;
 #define REAL(x) x##f
@@ -20,6 +27,8 @@ typedef float3 real3;
 #define real_bits(x) as_uint(x)
 #define real_from_bits(x) as_float(x)
 #else
+#define EXACT_BEGIN
+#define EXACT_END
 #include "core/real_host.h"
 #endif
 

@@ -4,6 +4,8 @@
 
 #include "geom/ray.h"
 
+EXACT_BEGIN
+
 /// Distance to the first hit in (0, t_max], or a negative number. The discriminant comes from the
 /// closest approach, not from b^2 - 4ac, which loses (distance/radius)^2 digits [Haines19].
 INLINE real sphere_hit(F4 center_radius, Ray ray) {
@@ -46,5 +48,7 @@ INLINE real quadric_hit(Quadric q, Ray ray) {
   return sphere_hit(q.center_radius, ray);
 #endif
 }
+
+EXACT_END
 
 #endif

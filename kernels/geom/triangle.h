@@ -6,6 +6,8 @@
 #include "core/simd.h"
 #include "geom/ray.h"
 
+EXACT_BEGIN
+
 /// What the test needs of a ray, computed once.
 typedef struct RayShear {
   uint kx, ky, kz;  // kz: axis of the largest |d|
@@ -96,5 +98,7 @@ INLINE void triangle_block(GLOBAL const float* v, GLOBAL const uint* prims, RayS
     }
   } while (inside);
 }
+
+EXACT_END
 
 #endif

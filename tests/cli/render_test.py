@@ -227,6 +227,21 @@ def test_sampler_and_filter():
         check(word in out, f"--help tells of {word}")
 
 
+def test_float_modes():
+    """Modes round differently, so pictures differ, by hardly anything; strict is the default."""
+    expect(0, [*QUICK, "-o", "default.exr"])
+    means = {}
+    for mode in ("strict", "mad", "fast"):
+        means[mode] = stats_of(*QUICK[1:], "--float", mode, "-o", mode + ".exr")["mean"]
+        check(document(["info", mode + ".exr"])["metadata"]["pellucid:floatMode"] == mode, mode)
+        check(same_pixels("default.exr", mode + ".exr") == (mode == "strict"), "pixels by", mode)
+    check(close(means["mad"], means["strict"], 1e-3), "mad is close", means)
+    check(close(means["fast"], means["strict"], 1e-3), "fast is close", means)
+    expect(0, [*QUICK, "--checkpoint", "strict.ckpt"])
+    expect(3, [*QUICK, "--float", "mad", "--checkpoint", "strict.ckpt", "--resume"], "float mad")
+    expect(2, [*QUICK, "--float", "fat"], "--float", "Did you mean 'fast'?")
+
+
 def test_features():
     for name, features in (("auto", "auto"), ("all", "all"), ("more", "+phong,+disks")):
         stats = stats_of("--features", features, "-o", name + ".exr")
