@@ -20,7 +20,8 @@ HOST = {
     "render": {"base", "image", "cl", "pack", "scene", "bvh", "shared"},
     "integrators": {"base", "pack", "render", "shared"},
     "bench": {"base", "cl", "pack", "render", "scene", "bvh", "shared"},
-    "apps": {"base", "bench", "image", "bvh", "cl", "scene", "pack", "render", "integrators", "shared"},
+    "study": {"base", "cl", "image", "integrators", "pack", "render", "scene", "shared"},
+    "apps": {"base", "bench", "study", "image", "bvh", "cl", "scene", "pack", "render", "integrators", "shared"},
 }
 _LOW = {"shared", "core", "geom"}
 KERNELS = {
