@@ -46,7 +46,7 @@ ExitCode checkpoint_info(const std::string& path, const CommonOptions& common) {
       error_count(c.facts.counters) ? describe_counters(c.facts.counters) : "no errors");
   if (!aovs.empty()) text += fmt::format("  channels  {}\n", join(aovs));
   for (const auto& [name, value] : c.facts.identity)
-    text += fmt::format("  {:<11} {}\n", name, value);
+    text += fmt::format("  {:<12} {}\n", name, value);
   if (common.wants_text()) print_result(text);
   write_json(common.json, document);
   return ExitCode::done;

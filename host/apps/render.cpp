@@ -110,8 +110,10 @@ std::optional<Film> RenderJob::resumed_film() {
   earlier_ = read_checkpoint(flags_.checkpoint);
   const std::string what = difference(earlier_->facts.identity, identity(facts_));
   if (!what.empty())
-    throw InputError(fmt::format("checkpoint '{}' (the one) is not of this render (the other): {}",
-                                 flags_.checkpoint, what));
+    throw InputError(
+        fmt::format("checkpoint '{}' (the one) is not of this render (the other): {}; repeat its "
+                    "options, or name another file with --checkpoint",
+                    flags_.checkpoint, what));
   const PassSet& done = earlier_->film.passes;
   const auto& wanted = facts_.options.passes;
   log_info("going on with '{}', which has passes {}{}", flags_.checkpoint, done.text(),

@@ -47,6 +47,29 @@ std::vector<float> row_vector_matrix(const glm::dmat4& m) {
   return out;
 }
 
+/// Options that decide what is rendered, by their names without "--"; those that a method knows
+/// defaults of its own for only where they were given.
+std::vector<std::pair<std::string, std::string>> settings(const Scene& scene,
+                                                          const RenderOptions& o) {
+  const Window w = o.window();
+  std::vector<std::pair<std::string, std::string>> all{
+      {"size", fmt::format("{}x{}", o.width, o.height)},
+      {"crop", fmt::format("{},{},{},{}", w.x0, w.x0 + w.width, w.y0, w.y0 + w.height)},
+      {"max-depth", o.max_depth ? std::to_string(*o.max_depth) : "unlimited"},
+      {"mis", mis_name(o.mis)},
+      {"filter", pixel_filter_info(scene.settings.filter).name},
+      {"sampler", sampler_name(o.plan.sampler)}};
+  if (o.light_paths) all.emplace_back("light-paths", std::to_string(*o.light_paths));
+  if (o.radius) all.emplace_back("radius", fmt::format("{}", *o.radius));
+  if (o.radius_alpha != RenderOptions().radius_alpha)
+    all.emplace_back("radius-alpha", fmt::format("{}", o.radius_alpha));
+  if (o.merge_first_only) all.emplace_back("merges", "first");
+  if (o.plan.float_mode != FloatMode::strict)
+    all.emplace_back("float", float_mode_name(o.plan.float_mode));
+  if (o.plan.compact_vertices) all.emplace_back("vertices", "compact");
+  return all;
+}
+
 std::string counters_text(const std::vector<Counter>& counters) {
   const std::string text = describe_counters(counters);
   return text.empty() ? "all zero" : text;
@@ -55,20 +78,9 @@ std::string counters_text(const std::vector<Counter>& counters) {
 }  // namespace
 
 std::string settings_text(const Scene& scene, const RenderOptions& o) {
-  const Window w = o.window();
-  std::string text =
-      fmt::format("{}x{} crop {},{},{},{} max-depth {} mis {} filter {} sampler {}", o.width,
-                  o.height, w.x0, w.x0 + w.width, w.y0, w.y0 + w.height,
-                  o.max_depth ? std::to_string(*o.max_depth) : "unlimited", mis_name(o.mis),
-                  pixel_filter_info(scene.settings.filter).name, sampler_name(o.plan.sampler));
-  if (o.light_paths) text += fmt::format(" light-paths {}", *o.light_paths);
-  if (o.radius) text += fmt::format(" radius {}", *o.radius);
-  if (o.radius_alpha != RenderOptions().radius_alpha)
-    text += fmt::format(" radius-alpha {}", o.radius_alpha);
-  if (o.merge_first_only) text += " merges first";
-  if (o.plan.float_mode != FloatMode::strict)
-    text += " float " + float_mode_name(o.plan.float_mode);
-  if (o.plan.compact_vertices) text += " vertices compact";
+  std::string text;
+  for (const auto& [name, value] : settings(scene, o))
+    text += (text.empty() ? "" : " ") + (name == "size" ? value : name + " " + value);
   return text;
 }
 
@@ -113,12 +125,13 @@ void make_deterministic(Evidence& evidence) {
 }
 
 std::map<std::string, std::string> identity(const RenderFacts& f) {
-  return {{"scene", f.scene_hash},
-          {"kernels", f.kernels_hash},
-          {"settings", settings_text(*f.scene, f.options)},
-          {"layers", describe_layers(f.integrator->layers)},
-          {"integrator", f.integrator->name},
-          {"seed", std::to_string(f.options.seed)}};
+  std::map<std::string, std::string> all{{"scene", f.scene_hash},
+                                         {"kernels", f.kernels_hash},
+                                         {"layers", describe_layers(f.integrator->layers)},
+                                         {"integrator", f.integrator->name},
+                                         {"seed", std::to_string(f.options.seed)}};
+  for (const auto& [name, value] : settings(*f.scene, f.options)) all.emplace(name, value);
+  return all;
 }
 
 nlohmann::json render_stats(const RenderFacts& f) {

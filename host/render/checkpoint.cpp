@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/text.h"
 #include "cl/sources.h"
 
 namespace pellucid {
@@ -253,13 +255,17 @@ void add_missing(std::vector<AovChannel>& channels, const std::vector<AovChannel
 
 std::string difference(const std::map<std::string, std::string>& a,
                        const std::map<std::string, std::string>& b) {
-  for (const auto& [name, value] : a) {
-    const auto found = b.find(name);
-    const std::string other = found == b.end() ? "nothing" : found->second;
-    if (value != other)
-      return fmt::format("{} is {} in the one and {} in the other", name, value, other);
+  std::map<std::string, std::array<std::string, 2>> both;
+  for (const auto& [name, value] : a) both[name][0] = value;
+  for (const auto& [name, value] : b) both[name][1] = value;
+  std::vector<std::string> all;
+  for (const auto& [name, value] : both) {
+    const auto told = [](const std::string& v) { return v.empty() ? "not given" : v; };
+    if (value[0] != value[1])
+      all.push_back(fmt::format("{} is {} in the one and {} in the other", name, told(value[0]),
+                                told(value[1])));
   }
-  return a.size() == b.size() ? "" : "one of them says more about itself than the other";
+  return join(all, "; ");
 }
 
 void write_checkpoint(const std::string& path, const Film& film, const CheckpointFacts& facts) {

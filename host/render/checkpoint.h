@@ -35,7 +35,7 @@ constexpr std::uint64_t checkpoint_bytes_per_pixel = 2 * sizeof(FilmPixel);
 /// Adds those of `more` whose names are not there yet.
 void add_missing(std::vector<AovChannel>& channels, const std::vector<AovChannel>& more);
 
-/// Sentence on the first thing in which two identities differ, or "".
+/// Sentence on all in which two identities differ, or "".
 std::string difference(const std::map<std::string, std::string>& a,
                        const std::map<std::string, std::string>& b);
 

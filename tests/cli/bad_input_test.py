@@ -35,6 +35,9 @@ BASE = {
 LEGAL = {"--seed": ["0"], "--time": ["0", "1e38"], "--every": ["0", "1e38"],
          "--fail-slower": ["0"], "--exposure": ["-1", "0"]}
 NAMES = ("FILE", "DIR", "SPEC")
+# Options that `path` has no use for, with a method that has: values are refused, not their presence.
+METHOD = {"--light-paths": "sppm", "--radius": "sppm", "--radius-alpha": "bpm", "--merges": "vcm",
+          "--vertices": "vcm"}
 
 
 def options_of(command):
@@ -73,6 +76,8 @@ def test_options():
     for command in commands:
         for option, kind in options_of(command):
             base = [command, *BASE[command]]
+            if option in METHOD and command == "render":
+                base += ["-i", METHOD[option]]
             if option == "--device":
                 base = base[:-2]
             for value in ODD:

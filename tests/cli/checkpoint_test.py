@@ -3,6 +3,7 @@
 
 Usage: checkpoint_test.py path/to/pellucid   (exit 0: all checks hold)
 """
+import json
 import os
 import resource
 import signal
@@ -123,11 +124,14 @@ def test_wrong_files():
     old = read_bytes("a.ckpt")
     expect(2, ["render", *SAME, "--spp", "8", "--checkpoint", "a.ckpt"], "a.ckpt", "--resume")
     expect(2, ["render", *SAME, "--spp", "8", "--resume"], "--checkpoint")
-    for option, what in ((["--seed", "5"], "seed"), (["--size", "16x16"], "settings"),
-                         (["-i", "nee"], "integrator"), (["--max-depth", "3"], "settings"),
-                         (["--crop", "0,8,0,8"], "settings"), (["--mis", "power"], "settings")):
+    for option, what in ((["--seed", "5"], "seed is 0 in the one and 5 in the other"),
+                         (["--size", "16x16"], "size is 32x16 in the one and 16x16 in the other"),
+                         (["-i", "nee"], "integrator is path in the one and nee in the other"),
+                         (["--max-depth", "3"], "max-depth is unlimited in the one and 3 in the other"),
+                         (["--crop", "0,8,0,8"], "crop is 0,32,0,16 in the one and 0,8,0,8 in"),
+                         (["--mis", "power"], "mis is balance in the one and power in the other")):
         expect(3, ["render", *SAME, "--spp", "8", "--checkpoint", "a.ckpt", "--resume", *option],
-               "a.ckpt", what)
+               "a.ckpt", what, "repeat its options", "--checkpoint")
     room = read_json("room.json")
     room["camera"]["fov"] = 80
     write_text("other.json", str(room).replace("'", '"'))
@@ -147,6 +151,71 @@ def test_wrong_files():
     render("d", "--passes", "9:12", "--checkpoint", "d.ckpt")
     expect(0, ["merge", "a.ckpt", "d.ckpt", "-o", "gap.exr"], "passes 4:9 are missing")
     check(not os.path.exists("never.exr"), "nothing is written after an error")
+
+
+def test_options_of_merging():
+    """Each is told by name, with both values; what agrees is not."""
+    given = {"--radius": "0.1", "--radius-alpha": "0.8", "--light-paths": "300", "--merges": "first"}
+    vcm = ["room.json", "-q", "--deterministic", "-i", "vcm", "-o", "vcm.exr"]
+
+    def words(**changed):
+        options = {**given, **{"--" + name.replace("_", "-"): value for name, value in changed.items()}}
+        return [word for option, value in options.items() if value for word in (option, value)]
+
+    expect(0, [*vcm, *words(), "--passes", "0:2", "--checkpoint", "vcm.ckpt"])
+    old = read_bytes("vcm.ckpt")
+    for i, (name, value, told) in enumerate((("radius", "0.2", "0.2"), ("radius", "", "not given"),
+                                             ("radius_alpha", "0.7", "0.7"),
+                                             ("light_paths", "301", "301"),
+                                             ("light_paths", "", "not given"),
+                                             ("merges", "all", "not given"))):
+        option = "--" + name.replace("_", "-")
+        differs = f"{option[2:]} is {given[option]} in the one and {told} in the other"
+        _, err = expect(3, [*vcm, *words(**{name: value}), "--spp", "4", "--checkpoint", "vcm.ckpt",
+                            "--resume"], "'vcm.ckpt'", ": " + differs + ";")
+        check(err.count("in the one") == 1, "and nothing else differs", err)
+        other = f"other{i}.ckpt"
+        expect(0, [*vcm, *words(**{name: value}), "--passes", "2:4", "--checkpoint", other])
+        expect(3, ["merge", "vcm.ckpt", other, "-o", "never.exr"], "'vcm.ckpt'", other, differs)
+        expect(3, ["merge", other, "vcm.ckpt", "-o", "never.exr"],
+               f"{option[2:]} is {told} in the one and {given[option]} in the other")
+    expect(3, [*vcm, *words(radius="0.2", merges="all", vertices="compact"), "--spp", "4", "--checkpoint",
+               "vcm.ckpt", "--resume"], "radius is 0.1 in the one", "merges is first in the one",
+           "vertices is not given in the one and compact in the other")
+    check(read_bytes("vcm.ckpt") == old and not os.path.exists("never.exr"), "nothing is touched")
+    expect(0, [*vcm, *words(), "--spp", "4", "--checkpoint", "vcm.ckpt", "--resume"])
+
+
+def test_light_vertices_that_do_not_fit():
+    """Known only once a pass has traced them: what a checkpoint has is not lost."""
+    write_text("white.json", json.dumps({
+        "version": 1, "film": {"width": 4, "height": 4},
+        "camera": {"origin": [0, 0, 0.5], "target": [0, 0, 0], "fov": 90},
+        "materials": {"white": {"type": "diffuse", "reflectance": 0.98}},
+        "shapes": [{"type": "sphere", "material": "white", "center": [0, 0, 0], "radius": 1}],
+        "lights": [{"type": "point", "position": [0, 0.5, 0], "intensity": 1}]}))
+    every = ["white.json", "-q", "--deterministic", "-i", "vcm"]
+    vcm = [*every, "--light-paths", "64"]
+    remedies = ("--memory", "--vertices compact", "--light-paths", "light paths are merged all at once")
+    # Paths of some 50 vertices each, planned to have 4: refused in the first pass.
+    expect(4, [*every, "--spp", "1", "--light-paths", "20000", "--memory", "64M", "-o", "never.exr"], *remedies)
+    check(not os.path.exists("never.exr"), "nothing is written")
+    # Room for the first pass with 2 % to spare, where the number of vertices varies by 12 %.
+    sizes = document([*vcm, "--spp", "1", "-o", "one.exr"])["memory_bytes"]
+    capacity, spare = sizes["light_order"] // 4, 1.25  # one number for each; as plan_slices.cpp has it
+    per_vertex = sum(sizes[name] // capacity for name in (
+        "light_vertices", "light_order", "photon_positions", "photons", "grid_pairs", "grid_sorted"))
+    check(per_vertex == 180, "bytes of a light vertex, as README says", sizes)
+    memory = sum(sizes.values()) - int(per_vertex * capacity * (1 - 1.02 / spare))
+    tight = [*vcm, "--spp", "64", "--memory", str(memory), "--checkpoint", "tight.ckpt", "--every", "0",
+             "-o", "tight.exr"]
+    expect(4, tight, *remedies)
+    kept = document(["info", "tight.ckpt"])["spp"]
+    check(0 < kept < 64, "what was done is kept", kept)
+    expect(4, [*tight, "--resume"], *remedies)
+    expect(0, [*vcm, "--spp", "64", "--checkpoint", "tight.ckpt", "--resume", "-o", "tight.exr"])
+    expect(0, [*vcm, "--spp", "64", "-o", "roomy.exr"])
+    check(same_files("tight.exr", "roomy.exr"), "with more memory it goes on as if nothing had been")
 
 
 def test_nothing_overwrites_anything():

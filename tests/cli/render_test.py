@@ -166,10 +166,35 @@ def test_merging():
     expect(2, [*QUICK, "-i", "sppm", "--merges", "first"], "--merges", "'sppm'")
     expect(2, [*QUICK, "-i", "vcm", "--merges", "none"], "--merges", "all, first")
     expect(2, [*QUICK, "-i", "vcm", "--mis", "max"], "--mis max", "path")
-    _, told = expect(0, ["room.json", "--spp", "4", "-i", "sppm", "-D", 'materials.grey={"type": "mirror"}'])
-    check("holds photons" in told, "nothing holds photons", told)
-    _, told = expect(4, [*QUICK, "-i", "vcm", "--light-paths", "1000000", "--memory", "64M"])
-    check("--light-paths" in told and "--memory" in told, "too many photons", told)
+
+
+def test_merging_of_nothing():
+    """No light, nothing that holds photons, and more photons than fit, by every method that merges."""
+    dark = json.loads(json.dumps(ROOM))
+    del dark["lights"], dark["shapes"][0]["emission"]
+    write_text("dark.json", json.dumps(dark))
+    grey_is = ("room.json", "--dry-run", "-D")
+    for method in ("sppm", "bpm", "vcm"):
+        expect(0, ["dark.json", "--dry-run", "-i", method], "the scene has no light")
+        expect(3, ["dark.json", "-i", method, "-o", "never.exr", "--strict"], "the scene has no light",
+               "--strict")
+        plan, _ = expect(0, [*grey_is, 'materials.grey={"type": "mirror"}', "-i", method])
+        check(f"'{method}' merges nothing here" in plan and "none holds photons" in plan, "mirrors", plan)
+        for alpha, holds in ((0.09, method != "sppm"), (0.11, True)):
+            gloss = f'materials.grey={{"type": "conductor", "eta": 0.2, "k": 3, "alpha": {alpha}}}'
+            plan, _ = expect(0, [*grey_is, gloss, "-i", method])
+            check(("merges nothing here" in plan) != holds, f"gloss of {alpha} in {method}", plan)
+        many = [*QUICK, "-i", method, "-o", "never.exr", "--light-paths"]
+        expect(4, [*many, "1000000", "--memory", "64M"], "--memory allows 64.0 MiB",
+               "all light paths at once", "fewer --light-paths", "--vertices compact")
+        expect(4, [*many, "4294967294"], "buffer", "fewer --light-paths")
+        expect(2, [*many, "4294967295"], "--light-paths", "4294967295")
+        expect(2, [*many, "64", "--radius", "1e-9"], "--radius", "1e-09", "only from")
+    check(not os.path.exists("never.exr"), "nothing is written after an error")
+    expect(2, [*QUICK, "-i", "bpm", "--mis", "max"], "--mis max", "'bpm'")
+    expect(0, ["dark.json", "--spp", "2", "-i", "vcm", "-o", "dark.exr"])
+    statistics = document(["info", "dark.exr"])["statistics"]
+    check(all(one["max"] == 0 for one in statistics.values()), "no light, no picture", statistics)
 
 
 def test_aov():

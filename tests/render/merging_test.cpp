@@ -10,6 +10,7 @@
 #include "equality.h"
 #include "render_harness.h"
 #include "support/statistics.h"
+#include "support/test_scenes.h"
 
 namespace pellucid::test {
 namespace {
@@ -97,6 +98,64 @@ TEST(Merging, finds_light_through_glass_and_seen_through_glass) {
   }
   for (const auto& pixel : Renderer(above, {"bdpt", 16, 16}).render({16, 1, 6, MIS_BALANCE}).pixels)
     ASSERT_EQ(pixel[0].mean, 0.0) << "no connection finds it";
+}
+
+// Mirrored in the disc that shows it the floor, the camera stands at z = 1.3 and looks at the
+// middle of the spot, which is wider than its picture and the radius.
+constexpr double disc_height = 0.9, disc_half = 0.08, disc_ior = 30;  // reflects 88 %
+const glm::dvec3 disc_eye{-0.435, 0, 0.5}, disc_axis = glm::normalize(glm::dvec3(0.135, 0, 0.4));
+
+/// The floor below the pane as a disc beside the beam reflects it.
+Scene reflected_caustic(MaterialKind kind) {
+  Scene scene = spot_pane_scene();
+  Material material;
+  material.kind = kind;
+  material.ior = disc_ior;
+  material.reflectance = Rgb(0.05);
+  scene.materials.push_back(material);
+  add_shape(scene, Disk{{-0.3, 0, disc_height}, {0, 0, -1}, 0.12}).material =
+      uint(scene.materials.size() - 1);
+  SpotLight& spot = std::get<SpotLight>(scene.lights.at(0));
+  spot.inner = 0.12, spot.outer = 0.13;  // a radius of 0.22 on the floor
+  scene.camera.origin = disc_eye;
+  scene.camera.forward = disc_axis, scene.camera.right = {0, 1, 0};
+  scene.camera.fov = 2 * std::atan(disc_half) * 180 / pi;
+  return scene;
+}
+
+/// What the disc's mirror image of the floor adds up to, mean over the picture.
+double seen_in_disc(double r) {
+  const glm::dvec3 right{0, 1, 0}, up = glm::cross(right, disc_axis);
+  const auto at = [&](double u, double v) {
+    const glm::dvec3 d = glm::normalize(disc_axis + u * right + v * up);
+    const double length = (2 * disc_height - disc_eye.z) / d.z;
+    const double x = std::hypot(disc_eye.x + length * d.x, length * d.y);
+    return fresnel(d.z, 1, disc_ior, 0) * gathered(x, r);
+  };
+  return 0.5 / pi * integrate(at, -disc_half, disc_half, -disc_half, disc_half, 1e-9) /
+         (4 * disc_half * disc_half);
+}
+
+// A caustic in glass, and in the coat of a plastic: delta lobes keep a merge first, also where they
+// share their surface with others.
+TEST(Merging, finds_a_caustic_seen_in_glass_and_in_plastic) {
+  constexpr double radius = 0.05;
+  constexpr uint longest = 5;  // light, glass, glass, floor, disc, camera
+  const double expected = seen_in_disc(radius);
+  for (MaterialKind kind : {MaterialKind::dielectric, MaterialKind::plastic}) {
+    const Scene scene = reflected_caustic(kind);
+    const bool coat = kind == MaterialKind::plastic;
+    // Below the coat the plastic scatters what no mirror shows, and so little of it at this `ior`.
+    const double below = coat ? 1e-4 : 1e-5;
+    for (bool first : {false, true}) {
+      Build build = fixed_radius("vcm", radius, 16, 1 << 12);
+      build.merge_first_only = first;
+      EXPECT_EQ(judge(estimate(runs_of(scene, build, 16, longest).image[0]), expected, below), "")
+          << (coat ? "plastic" : "glass") << (first ? ", first merges" : ", all merges");
+    }
+    const double connected = estimate(runs_of(scene, {"bdpt", 16, 16}, 1, longest).image[0]).mean;
+    EXPECT_LE(connected, coat ? below * expected : 0) << "no connection finds it";
+  }
 }
 
 // In the open the bias is that of an average over the disc, and grows as r^2 (accuracy.md 3).

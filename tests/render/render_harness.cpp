@@ -46,6 +46,7 @@ RenderOptions render_options(const Build& build) {
   if (build.light_paths) o.light_paths = build.light_paths;
   if (build.radius > 0) o.radius = build.radius;
   o.radius_alpha = build.radius_alpha;
+  o.merge_first_only = build.merge_first_only;
   o.plan = plan_options(build);
   return o;
 }

@@ -38,6 +38,7 @@ struct Build {
   uint light_paths = 0;  ///< of an iteration; 0: one per pixel
   double radius = 0;     ///< of merging in the first pass; 0: by the scene
   double radius_alpha = 0.75;
+  bool merge_first_only = false;
   bool compact_vertices = false;
   double vertices_per_path = 4;  ///< room at first
   bool int64_atomics = true;

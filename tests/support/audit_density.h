@@ -20,7 +20,8 @@ class PathDensities {
     std::vector<double> p(k_ + 2 + (merges ? k_ : 0), 0.0);
     for (std::size_t s = 0; s <= k_ + 1; ++s)
       if (possible(s)) p[s] = density(s);
-    for (std::size_t i = 2; merges && i <= k_; ++i)  // light samples bring what comes straight
+    // Light samples bring what comes straight, where there are any.
+    for (std::size_t i = samples_lights ? 2 : 1; merges && i <= k_; ++i)
       if (spread(i)) p[merge_at(i)] = merge_density(i);
     return p;
   }
@@ -55,6 +56,7 @@ class PathDensities {
   /// Both ends of the edge that is not drawn may be anything but single directions.
   bool possible(std::size_t s) const {
     if (s == 0) return !light_is_delta();
+    if (!connects) return false;
     if (s == 1) return k_ >= 1 && spread(1);
     return spread(s - 1) && (s == k_ + 1 || spread(s));
   }

@@ -1,5 +1,6 @@
 // Whole paths as the kernels' walks find them, vertex by vertex, with the strategy that found each
-// and its weight. Needs TWIN_CONNECT.
+// and its weight. Needs TWIN_CONNECT or TWIN_MERGE; without the former connections and splats only
+// make paths, and their weights mean nothing.
 #pragma once
 
 #include "support/test_scenes.h"

@@ -33,6 +33,7 @@ class Replay {
   real weight(std::size_t s) const {
     if (s == 0) return by_chance();
     if (s >= k_ + 2) return by_merge(s - k_ - 2);
+    if (!connects) return real(0);
     if (path_.nodes[s == 1 ? 0 : s - 2].delta) return real(0);
     if (s == 1) return by_light_sample();
     if (s == k_ + 1) return by_splat();
@@ -96,6 +97,7 @@ class Replay {
     return weight_of(walk.radiance, load3(exact_.light().value));
   }
   real by_light_sample() const {
+#ifdef TWIN_CONNECT
     const Vertex& v = eye_[0].v;
     Walk walk = eye_walk_;
     walk.partials = eye_[0].partials;
@@ -103,6 +105,9 @@ class Replay {
     real cos_wi;
     const BsdfEval e = vertex_eval(&twin_.data, &v, light.wi, &cos_wi);
     return nee_weight(&twin_.data, launch_, &v, &walk, &light, e);
+#else
+    return real(0);
+#endif
   }
   LightSample light_sample_towards(real3 p) const;
   real by_splat() const {
@@ -124,7 +129,8 @@ class Replay {
   real by_merge(std::size_t i) const {
 #ifdef TWIN_MERGE
     Merge merge;
-    if (i > 0 && !path_.nodes[i].delta && merge_ends(twin_, launch_, eye_[i], light_[i], &merge))
+    if ((i > 0 || !samples_lights) && !path_.nodes[i].delta &&
+        merge_ends(twin_, launch_, eye_[i], light_[i], &merge))
       return merge.weight;
 #endif
     return real(0);
@@ -159,6 +165,7 @@ inline EmitSample Replay::start() const {
   return e;
 }
 
+#ifdef TWIN_CONNECT
 /// The light sample that light_sample would have drawn there.
 inline LightSample Replay::light_sample_towards(real3 p) const {
   const ::Light& light = exact_.light();
@@ -180,5 +187,6 @@ inline LightSample Replay::light_sample_towards(real3 p) const {
                              : REAL(1.0) / (point_light_angle(light) * dot3(d, d));
   return out;
 }
+#endif
 
 }  // namespace TWIN_NAMESPACE

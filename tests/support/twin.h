@@ -27,6 +27,8 @@
 #define TWIN_SUFFIX _compact
 #elif defined(TWIN_CONNECT)
 #define TWIN_SUFFIX _connect
+#elif defined(TWIN_MERGE)
+#define TWIN_SUFFIX _merge
 #else
 #define TWIN_SUFFIX
 #endif
@@ -57,6 +59,8 @@ namespace TWIN_NAMESPACE {
 
 constexpr bool is_float = sizeof(real) == sizeof(float);
 constexpr bool merges = INTG_MERGE == 1;
+constexpr bool connects = INTG_CONNECT == 1;
+constexpr bool samples_lights = INTG_NEE == 1;
 
 /// Kernel view of packed arrays, which must outlive it; counters go to `diag`.
 inline SceneData scene_data(const pellucid::PackedScene& packed, std::vector<uint>& diag) {

@@ -1,4 +1,5 @@
-// What the host writes before every kernel, here for the twin: all effects, width 8, NEE with MIS.
+// What the host writes before every kernel, here for the twin: all effects, width 8; the walks of
+// `path`, with TWIN_CONNECT those of `bdpt`, with TWIN_MERGE those of `bpm`, with both of `vcm`.
 // No include guard: twin.h includes it right before the kernel core and twin_prelude_end.h after.
 #define SIMD_WIDTH 8
 #define SIMD_BUILTINS 0
@@ -29,16 +30,20 @@
 #define FEAT_LIGHT_SPOT 1
 #define FEAT_LIGHT_DIRECTIONAL 1
 #define FEAT_LIGHT_ENVIRONMENT 1
+#if defined(TWIN_MERGE) && !defined(TWIN_CONNECT)  // of `bpm`
+#define INTG_NEE 0
+#else
 #define INTG_NEE 1
-#define INTG_MIS 1
+#endif
+#define INTG_MIS INTG_NEE
 #define INTG_UNIFORM 0
-#ifdef TWIN_CONNECT  // of the walks of `bdpt` instead of those of `path`
+#ifdef TWIN_CONNECT
 #define INTG_CONNECT 1
 #else
 #define INTG_CONNECT 0
 #endif
 #define INTG_SPLAT INTG_CONNECT
-#ifdef TWIN_MERGE  // of `vcm`
+#ifdef TWIN_MERGE
 #define INTG_MERGE 1
 #else
 #define INTG_MERGE 0

@@ -58,8 +58,18 @@ pellucid_twin_executable(audit_merge_double_tests "double.merge." ${merge_source
 target_compile_definitions(audit_merge_double_tests PRIVATE PELLUCID_REAL=double TWIN_CONNECT=1
   TWIN_MERGE=1)
 
+# Merges alone, as in `bpm`: weights.
+pellucid_twin_executable(audit_bpm_float_tests "float.bpm."
+  ${CMAKE_CURRENT_LIST_DIR}/audit_weights_test.cpp)
+target_compile_definitions(audit_bpm_float_tests PRIVATE PELLUCID_REAL=float
+  PELLUCID_REAL_IS_FLOAT=1 TWIN_MERGE=1)
+pellucid_twin_executable(audit_bpm_double_tests "double.bpm."
+  ${CMAKE_CURRENT_LIST_DIR}/audit_weights_test.cpp)
+target_compile_definitions(audit_bpm_double_tests PRIVATE PELLUCID_REAL=double TWIN_MERGE=1)
+
 foreach(twin twin_float_tests twin_double_tests audit_float_tests audit_double_tests
-        audit_merge_float_tests audit_merge_double_tests)
+        audit_merge_float_tests audit_merge_double_tests audit_bpm_float_tests
+        audit_bpm_double_tests)
   target_compile_options(${twin} PRIVATE ${twin_flags})
 endforeach()
 pellucid_twin_executable(pack_tests "" ${pack_sources})
