@@ -19,8 +19,9 @@ namespace pellucid {
 /// Options as people write them. Precedence: flag, environment, scene, default.
 struct RenderFlags {
   std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, size, crop,
-                                 passes, features = "auto", float_mode = "strict", kernel_dir, stats, memory, checkpoint,
-                                 every, vertices, radius, radius_alpha, merges, atlas, grid;
+                                 passes, features = "auto", float_mode = "strict", kernel_dir,
+                                 stats, memory, checkpoint, every, vertices, radius, radius_alpha,
+                                 merges, atlas, grid;
   std::vector<std::string> overrides, outputs, aovs;
   DeviceFlags device;
   DisplayFlags display;
