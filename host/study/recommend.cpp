@@ -1,0 +1,170 @@
+// The recommendation: a rule, its sentence, and its conditions.
+#include "study/recommend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/statistics.h"
+#include "base/text.h"
+#include "study/analyse.h"
+
+namespace pellucid {
+namespace {
+
+/// Methods from the simplest on; then the precisions.
+int simplicity(const StudyOption& option) {
+  static const std::vector<std::string> methods{"naive", "nee",  "path", "light",
+                                                "bdpt",  "sppm", "bpm",  "vcm"};
+  static const std::vector<std::string> precisions{"strict", "mad", "fast", "compact"};
+  const auto place = [](const std::vector<std::string>& list, const std::string& name) {
+    return int(std::find(list.begin(), list.end(), name) - list.begin());
+  };
+  return place(methods, option.integrator) * int(precisions.size() + 1) +
+         place(precisions, option.precision);
+}
+
+bool timed(const Verdict& v) {
+  return v.kind == TargetKind::measured || v.kind == TargetKind::interpolated ||
+         v.kind == TargetKind::extrapolated;
+}
+
+/// Of log seconds.
+double error_of(const StudyOption& option, const Verdict& v) {
+  const double runs = double(std::max<std::size_t>(option.runs.size(), 3));
+  return std::log(v.high / v.low) / (2 * student_quantile(0.5 + 0.5 * STUDY_CONFIDENCE, runs - 1));
+}
+
+class Chooser {
+ public:
+  explicit Chooser(Study& study) : s_(study) {}
+  void choose();
+
+ private:
+  std::vector<int> candidates() const;
+  bool differ(int a, int b) const;
+  std::string time_text(int i) const;
+  void explain_nothing();
+  void tell_conditions();
+
+  Study& s_;
+};
+
+std::vector<int> Chooser::candidates() const {
+  std::vector<int> out;
+  for (int i = 0; i < int(s_.options.size()); ++i) {
+    const Verdict& v = s_.verdicts[std::size_t(i)];
+    if (s_.options[std::size_t(i)].state == OptionState::main && timed(v) && v.flags.empty())
+      out.push_back(i);
+  }
+  return out;
+}
+
+/// Whether their times do, at the study's confidence. Of a method in two precisions, only what the
+/// pairs say counts: noise is theirs in common.
+bool Chooser::differ(int a, int b) const {
+  const StudyOption &x = s_.options[std::size_t(a)], &y = s_.options[std::size_t(b)];
+  const Verdict &u = s_.verdicts[std::size_t(a)], &v = s_.verdicts[std::size_t(b)];
+  if (x.integrator == y.integrator) {
+    const std::string& relaxed = x.precision == "strict" ? y.precision : x.precision;
+    for (const PrecisionPair& p : s_.pairs)
+      if (p.integrator == x.integrator && p.precision == relaxed)
+        return p.time_low > 1 || p.time_high < 1;
+  }
+  const double ex = error_of(x, u), ey = error_of(y, v);
+  const double runs = double(std::max<std::size_t>(x.runs.size() + y.runs.size(), 4));
+  const double t = student_quantile(0.5 + 0.5 * STUDY_CONFIDENCE, runs - 2);
+  return std::abs(std::log(u.seconds / v.seconds)) > t * std::sqrt(ex * ex + ey * ey);
+}
+
+std::string Chooser::time_text(int i) const {
+  const Verdict& v = s_.verdicts[std::size_t(i)];
+  const std::string kind = v.kind == TargetKind::extrapolated
+                               ? fmt::format("extrapolated x{:.2g}", v.beyond_factor)
+                           : v.kind == TargetKind::measured ? "measured"
+                                                            : "interpolated";
+  return fmt::format("{} [{}, {}], {}", format_seconds(v.seconds), format_seconds(v.low),
+                     format_seconds(v.high), kind);
+}
+
+void Chooser::explain_nothing() {
+  s_.recommendation = fmt::format(
+      "Inconclusive: no option is known to reach {:.3g} % without a flag. ", 100 * s_.target);
+  const bool short_of_time =
+      std::any_of(s_.options.begin(), s_.options.end(), [](const StudyOption& o) {
+        return o.state == OptionState::too_slow || (o.state == OptionState::main && o.runs.empty());
+      });
+  if (!s_.reference.trusted)
+    s_.recommendation += "The reference is in doubt: " + s_.reference.doubt + ".";
+  else if (short_of_time || s_.options.empty())
+    s_.recommendation += "The budget is too small: raise --budget, or lower --size.";
+  else
+    s_.recommendation += "See the flags; raise --budget or --target.";
+}
+
+void Chooser::tell_conditions() {
+  const StudyOption& best = s_.options[std::size_t(s_.recommended)];
+  const Verdict& v = s_.verdicts[std::size_t(s_.recommended)];
+  if (v.kind == TargetKind::extrapolated && v.beyond_factor > 1)
+    s_.would_change.push_back(
+        fmt::format("Its time is extrapolated x{:.2g}: a budget of about {} would measure it.",
+                    v.beyond_factor, format_seconds(s_.budget_seconds * v.beyond_factor)));
+  for (std::size_t i = 0; i < s_.options.size(); ++i) {
+    const StudyOption& other = s_.options[i];
+    if (other.state == OptionState::pilot)
+      s_.would_change.push_back(fmt::format(
+          "{} was left after the pilot ({}); only a pilot that misjudged it would change that.",
+          other.name(), other.reason));
+    if (other.state == OptionState::too_slow)
+      s_.would_change.push_back(
+          fmt::format("{} had too few rungs: a larger budget may bring it in.", other.name()));
+  }
+  if (best.merges)
+    s_.would_change.push_back(
+        "Merging is biased by its radius: a smaller target, or another --radius, may change the "
+        "ranks.");
+  if (!s_.pairs.empty())
+    s_.would_change.push_back("Precisions were compared on this device and driver alone.");
+  s_.would_change.push_back(fmt::format(
+      "Times are for {}x{} pixels on {}: another size changes the radius of merging and what a "
+      "light path is worth to a pixel.",
+      s_.width, s_.height, s_.machine.device));
+}
+
+void Chooser::choose() {
+  s_.recommended = -1, s_.equals.clear(), s_.would_change.clear();
+  const std::vector<int> all = candidates();
+  if (all.empty() || !s_.reference.trusted) return explain_nothing();
+  const int quickest = *std::min_element(all.begin(), all.end(), [&](int a, int b) {
+    return s_.verdicts[std::size_t(a)].high < s_.verdicts[std::size_t(b)].high;
+  });
+  std::vector<int> alike;
+  for (int i : all)
+    if (i == quickest || !differ(i, quickest)) alike.push_back(i);
+  s_.recommended = *std::min_element(alike.begin(), alike.end(), [&](int a, int b) {
+    return simplicity(s_.options[std::size_t(a)]) < simplicity(s_.options[std::size_t(b)]);
+  });
+  std::vector<std::string> names;
+  for (int i : alike)
+    if (i != s_.recommended) {
+      s_.equals.push_back(i);
+      names.push_back(s_.options[std::size_t(i)].name());
+    }
+  const std::string name = s_.options[std::size_t(s_.recommended)].name();
+  s_.recommendation =
+      fmt::format("{} reaches {:.3g} % in {}.", name, 100 * s_.target, time_text(s_.recommended));
+  if (!names.empty())
+    s_.recommendation +=
+        fmt::format(" No significant difference to {}: it is the simplest of them.", join(names));
+  tell_conditions();
+}
+
+}  // namespace
+
+void recommend(Study& study) {
+  Chooser(study).choose();
+}
+
+}  // namespace pellucid
