@@ -22,6 +22,7 @@
   X(devices, "the OpenCL devices here and what they can do")                 \
   X(info, "what is in a scene, an image or a checkpoint")                    \
   X(compare, "error of image A against reference B, with gates for scripts") \
+  X(study, "what accuracy costs in time, method by method")                  \
   X(bench, "speed of this device, beside Embree where present")              \
   X(merge, "checkpoints of disjoint passes to one picture")                  \
   X(kernels, "the specialised programs for a scene and method")              \

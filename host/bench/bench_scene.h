@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "bench/clock.h"
+#include "base/clock.h"
 #include "render/session.h"
 
 namespace pellucid {

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/timer.h"
-#include "bench/clock.h"
+#include "base/clock.h"
 #include "bench/embree_rays.h"
 
 namespace pellucid {

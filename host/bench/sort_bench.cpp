@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "bench/clock.h"
+#include "base/clock.h"
 #include "render/photon_grid.h"
 #include "shared/limits.h"
 

@@ -30,6 +30,9 @@ class Session {
   /// Renders until the budget is used up or a hook says stop (then returns false).
   bool run(const RenderHooks& hooks);
 
+  /// What run() is to have done in the end, from now on.
+  void set_passes(const PassRange& passes) { options_.passes = passes; }
+
   /// With all passes done so far.
   const Film& film();
   double render_seconds() const { return render_seconds_; }  ///< of run()

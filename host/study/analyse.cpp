@@ -17,8 +17,6 @@
 namespace pellucid {
 namespace {
 
-/// Fewest rungs that a curve is judged by.
-constexpr std::size_t least_rungs = 3;
 /// A fit that is off by more is not believed beyond its rungs.
 constexpr double most_residual = 0.15;
 
@@ -120,7 +118,7 @@ void Judge::label() {
 
 Verdict Judge::verdict() {
   check_numbers(option_);
-  const bool enough = runs() >= 3 && curve_.size() >= least_rungs;
+  const bool enough = runs() >= 3 && curve_.size() >= LEAST_RUNGS;
   if (enough) {
     const CurveFit all = fit(curve_);
     v_.noise = all.noise, v_.exponent = all.exponent, v_.bias = all.bias;

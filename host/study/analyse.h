@@ -1,12 +1,16 @@
 // From runs to verdicts: time to target, flags, and a recommendation.
 #pragma once
 
+#include <cstddef>
+
 #include "study/study.h"
 
 namespace pellucid {
 
 /// Most that a time to target is extrapolated over the longest run.
 constexpr double EXTRAPOLATION_MOST = 32;
+/// Fewest rungs that a curve is judged by.
+constexpr std::size_t LEAST_RUNGS = 5;
 /// Confidence of every interval in a study, two-sided.
 constexpr double STUDY_CONFIDENCE = 0.9;
 

@@ -1,4 +1,4 @@
-// What a benchmark calls time.
+// What measurements call time.
 #pragma once
 
 #include <sys/resource.h>

@@ -1,0 +1,377 @@
+// The stages of a study and how they share its budget.
+#include "study/runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <random>
+
+#include "base/error.h"
+#include "base/statistics.h"
+#include "base/timer.h"
+#include "image/metrics.h"
+#include "image/tonemap.h"
+#include "integrators/registry.h"
+#include "render/launch.h"
+#include "study/analyse.h"
+#include "study/embed.h"
+#include "study/ladder.h"
+#include "study/machine_load.h"
+#include "study/pairs.h"
+#include "study/reference.h"
+
+namespace pellucid {
+namespace {
+
+// Shares of the budget (accuracy.md 9); what one leaves, the next has.
+constexpr double until_reference = 0.4, until_main = 0.9;
+constexpr int pilot_runs = 4, main_runs = 10, blind_runs = 4;
+constexpr std::uint64_t pilot_spp = 2 * SOBOL_BLOCK;
+/// Seeds of the stages, far enough apart that none has another's.
+constexpr std::uint64_t pilot_seeds = 1000000, reference_seeds = 2000000, pair_seeds = 3000000,
+                        seeds_of_a_study = 10000000;
+
+/// An option of the study, or a method that only helps to make the reference.
+struct Entry {
+  std::unique_ptr<Contender> contender;
+  StudyOption option;
+  bool asked = false, trusted = false;
+  std::vector<LadderStep> pilots;
+  std::vector<std::uint64_t> ladder;
+  std::vector<PictureStack> stacks;  ///< by rung
+
+  double pilot_seconds() const {
+    double sum = 0;
+    for (const LadderStep& p : pilots) sum += p.rung.seconds;
+    return sum / double(pilots.size());
+  }
+};
+
+class Runner {
+ public:
+  Runner(const StudyStage& stage, const SceneOptics& optics, const StudyRequest& request)
+      : stage_(stage), optics_(optics), request_(request) {}
+  Study run();
+
+ private:
+  void enlist();
+  void pilot();
+  void refer();
+  void eliminate();
+  void plan_ladders();
+  void replicate();
+  void replicate_one(Entry& entry, int k);
+  void compare_precisions();
+  void finish(Entry& entry);
+  Study gather();
+  std::vector<Entry*> racing();
+  std::uint64_t seed(std::uint64_t stage, int k) const {
+    return request_.seed * seeds_of_a_study + stage + std::uint64_t(k);
+  }
+  void tell(const std::string& text) const;
+
+  const StudyStage& stage_;
+  const SceneOptics& optics_;
+  const StudyRequest& request_;
+  Timer clock_;
+  std::unique_ptr<MachineLoad> load_;
+  std::vector<Entry> entries_;
+  Reference reference_;
+  std::vector<PrecisionPair> pairs_;
+  double foreign_load_ = 0;
+};
+
+void Runner::tell(const std::string& text) const {
+  const double left = std::max(0.0, request_.budget_seconds - clock_.seconds());
+  request_.tell(fmt::format("{}  at most {:.0f} s left", text, left));
+}
+
+/// Options asked for, and methods that could make the reference.
+void Runner::enlist() {
+  for (const Integrator& method : integrators()) {
+    Entry entry;
+    entry.option.unreachable = unreachable_paths(method, optics_);
+    entry.option.chance = chance_paths(method, optics_);
+    const auto& asked = request_.integrators;
+    entry.asked = std::find(asked.begin(), asked.end(), method.name) != asked.end();
+    const bool sees = entry.option.unreachable.empty();
+    entry.trusted = method.name != "reference" && sees && entry.option.chance.empty();
+    if (!entry.asked && (!entry.trusted || !request_.reference.empty())) continue;
+    entry.contender = std::make_unique<Contender>(stage_, method, "strict");
+    if (!sees) entry.option.state = OptionState::blind;
+    entries_.push_back(std::move(entry));
+  }
+  for (Entry& entry : entries_) entry.contender->describe(entry.option);
+}
+
+void Runner::pilot() {
+  for (int k = 0; k < pilot_runs; ++k)
+    for (Entry& entry : entries_) {
+      if (entry.option.state == OptionState::refused) continue;
+      tell(fmt::format("pilot {} of {}: {}", k + 1, pilot_runs, entry.contender->method().name));
+      entry.pilots.push_back(entry.contender->run(seed(pilot_seeds, k), pilot_spp));
+      if (all_finite(entry.pilots.back().picture)) continue;
+      entry.option.state = OptionState::refused;
+      entry.option.reason = "its pictures hold pixels that are no numbers";
+    }
+}
+
+/// Which methods may speak for the truth: unbiased, and aiming at all paths; the quickest two.
+void Runner::refer() {
+  if (!request_.reference.empty()) {
+    const RenderOptions& o = stage_.options;
+    reference_ = read_reference(request_.reference, o.window().width, o.window().height);
+    return;
+  }
+  const double seconds = until_reference * request_.budget_seconds - clock_.seconds();
+  const auto say = [this](const std::string& text) { tell(text); };
+  PictureStack all;
+  for (const Entry& entry : entries_)
+    if (entry.trusted && entry.option.state != OptionState::refused)
+      for (const LadderStep& p : entry.pilots) all.add(p.picture);
+  if (all.size() == 0) throw UsageError("no method can make a reference; give one with --ref FILE");
+  const std::vector<double> weights = relmse_weights(all.mean());
+  std::vector<std::pair<double, Entry*>> unbiased, merging;  // relMSE x seconds
+  for (Entry& entry : entries_) {
+    if (!entry.trusted || entry.option.state == OptionState::refused) continue;
+    PictureStack own;
+    for (const LadderStep& p : entry.pilots) own.add(p.picture);
+    (entry.option.merges ? merging : unbiased)
+        .emplace_back(own.variance(weights) * entry.pilot_seconds(), &entry);
+  }
+  const auto by_cost = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::sort(unbiased.begin(), unbiased.end(), by_cost);
+  std::sort(merging.begin(), merging.end(), by_cost);
+  if (!unbiased.empty()) {
+    Entry* other = unbiased.size() > 1 ? unbiased[1].second : unbiased[0].second;
+    reference_ = make_reference(*unbiased[0].second->contender, *other->contender,
+                                seed(reference_seeds, 0), seconds, say);
+  } else {
+    const double radius = stage_.options.radius.value_or(
+        default_radius(stage_.packed, stage_.options.light_path_count()));
+    reference_ = extrapolate_reference(*merging[0].second->contender, radius,
+                                       seed(reference_seeds, 0), seconds, say);
+  }
+}
+
+/// What is ten times dearer than the best, at a confidence of 99 %, gets no more of the budget.
+void Runner::eliminate() {
+  constexpr double dearer = 10, confidence = 0.99;
+  const double t = student_quantile(confidence, 2 * (pilot_runs - 1));
+  struct Cost {
+    Entry* entry;
+    double mean = 0, error = 0;  ///< of log (relMSE x seconds)
+  };
+  std::vector<Cost> costs;
+  for (Entry& entry : entries_) {
+    if (!entry.asked || entry.option.state != OptionState::main) continue;
+    Cost cost{&entry};
+    std::vector<double> logs;
+    for (const LadderStep& p : entry.pilots)
+      logs.push_back(std::log(weighted_distance(p.picture, reference_.picture, reference_.weights) *
+                              p.rung.seconds));
+    for (double v : logs) cost.mean += v / pilot_runs;
+    for (double v : logs) cost.error += std::pow(v - cost.mean, 2);
+    cost.error = std::sqrt(cost.error / (pilot_runs - 1) / pilot_runs);
+    entry.option.pilot_efficiency = std::exp(-cost.mean);
+    costs.push_back(cost);
+  }
+  if (costs.empty()) return;
+  const Cost& best = *std::min_element(
+      costs.begin(), costs.end(), [](const Cost& a, const Cost& b) { return a.mean < b.mean; });
+  for (const Cost& cost : costs) {
+    const double worse = cost.mean - best.mean - t * std::hypot(cost.error, best.error);
+    if (worse < std::log(dearer)) continue;
+    cost.entry->option.state = OptionState::pilot;
+    cost.entry->option.reason =
+        fmt::format("about {:.0f} times dearer than {}", std::exp(cost.mean - best.mean),
+                    best.entry->contender->method().name);
+  }
+}
+
+std::vector<Entry*> Runner::racing() {
+  std::vector<Entry*> out;
+  for (Entry& entry : entries_)
+    if (entry.asked &&
+        (entry.option.state == OptionState::main || entry.option.state == OptionState::blind))
+      out.push_back(&entry);
+  return out;
+}
+
+/// All runs of all options are about as long.
+void Runner::plan_ladders() {
+  const std::vector<Entry*> all = racing();
+  double shares = 0;
+  for (const Entry* entry : all)
+    shares += entry->option.state == OptionState::blind ? blind_runs : main_runs;
+  const double seconds = until_main * request_.budget_seconds - clock_.seconds();
+  for (Entry* entry : all) {
+    entry->ladder = ladder_to(entry->contender->spp_in(seconds / shares));
+    if (entry->ladder.size() < LEAST_RUNGS && entry->option.state == OptionState::main) {
+      entry->option.state = OptionState::too_slow;
+      entry->option.reason =
+          fmt::format("{} of {} rungs fit the budget", entry->ladder.size(), LEAST_RUNGS);
+    }
+    entry->stacks.resize(entry->ladder.size());
+  }
+}
+
+void Runner::replicate_one(Entry& entry, int k) {
+  StudyRun run;
+  run.seed = seed(0, k);
+  const double energy = energy_of(reference_.picture);
+  std::vector<Picture> pictures;
+  entry.contender->run(run.seed, entry.ladder, [&](const LadderStep& step) {
+    Rung rung = step.rung;
+    rung.relmse = weighted_distance(step.picture, reference_.picture, reference_.weights) -
+                  reference_.facts.relmse;
+    rung.energy_ratio = energy > 0 ? energy_of(step.picture) / energy : 1;
+    run.rungs.push_back(rung);
+    pictures.push_back(step.picture);
+  });
+  if (!all_finite(pictures.back())) {
+    entry.option.state = OptionState::refused;
+    entry.option.reason = "its pictures hold pixels that are no numbers";
+    return;
+  }
+  for (std::size_t r = 0; r < pictures.size(); ++r) entry.stacks[r].add(std::move(pictures[r]));
+  entry.option.runs.push_back(std::move(run));
+}
+
+/// Rounds in which every option has one run, in an order of their own.
+void Runner::replicate() {
+  load_ = std::make_unique<MachineLoad>();
+  std::mt19937 shuffle(static_cast<unsigned>(request_.seed));
+  std::vector<Entry*> order = racing();
+  for (int k = 0; k < main_runs; ++k) {
+    std::shuffle(order.begin(), order.end(), shuffle);
+    for (Entry* entry : order) {
+      const bool blind = entry->option.state == OptionState::blind;
+      if (entry->option.state == OptionState::refused || (blind && k >= blind_runs)) continue;
+      if (clock_.seconds() + entry->contender->cost(entry->ladder.back()) > request_.budget_seconds)
+        continue;  // it would end too late
+      tell(fmt::format("round {} of {}: {}", k + 1, main_runs, entry->contender->method().name));
+      replicate_one(*entry, k);
+    }
+  }
+  foreign_load_ = load_->share();
+}
+
+/// The two quickest options once more, each beside itself in other precisions.
+void Runner::compare_precisions() {
+  Study so_far = gather();
+  analyse(so_far);
+  std::vector<std::pair<double, Entry*>> quickest;
+  for (std::size_t i = 0; i < so_far.options.size(); ++i) {
+    const Verdict& v = so_far.verdicts[i];
+    if (so_far.options[i].state != OptionState::main || !(v.seconds > 0)) continue;
+    for (Entry& entry : entries_)
+      if (entry.asked && entry.option.integrator == so_far.options[i].integrator)
+        quickest.emplace_back(v.high, &entry);
+  }
+  std::sort(quickest.begin(), quickest.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  constexpr std::size_t most = 2;
+  quickest.resize(std::min(most, quickest.size()));
+  std::vector<PairJob> jobs;
+  for (const auto& [seconds, entry] : quickest)
+    for (const std::string& precision : request_.precisions) {
+      const bool stores = entry->contender->method().uses(Bundle::light_vertices);
+      if (precision != "strict" && (precision != "compact" || stores))
+        jobs.push_back({entry->contender.get(), precision});
+    }
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const double left = request_.budget_seconds - clock_.seconds();
+    const auto pair = compare_precision(stage_, jobs[i], reference_.weights, seed(pair_seeds, 0),
+                                        left / double(jobs.size() - i),
+                                        [this](const std::string& t) { tell(t); });
+    if (pair) pairs_.push_back(*pair);
+  }
+}
+
+void Runner::finish(Entry& entry) {
+  entry.contender->describe(entry.option);
+  entry.option.splits.clear();
+  for (std::size_t r = 0; r < entry.stacks.size() && entry.stacks[r].size() >= 3; ++r) {
+    Split split =
+        entry.stacks[r].split(reference_.picture, reference_.weights, reference_.facts.relmse);
+    split.spp = entry.ladder[r];
+    entry.option.splits.push_back(split);
+  }
+}
+
+Study Runner::gather() {
+  Study study;
+  study.target = request_.target;
+  study.budget_seconds = request_.budget_seconds;
+  study.seconds = clock_.seconds();
+  study.seed = request_.seed;
+  study.width = stage_.options.window().width, study.height = stage_.options.window().height;
+  study.reference = reference_.facts;
+  study.machine.foreign_load = foreign_load_;
+  for (Entry& entry : entries_) {
+    if (!entry.asked) continue;
+    finish(entry);
+    study.options.push_back(entry.option);
+  }
+  study.pairs = pairs_;
+  for (const PrecisionPair& pair : pairs_) {
+    StudyOption option;
+    option.integrator = pair.integrator, option.precision = pair.precision;
+    for (const StudyOption& strict : study.options)
+      if (strict.integrator == pair.integrator && strict.precision == "strict")
+        option.merges = strict.merges, option.radius_alpha = strict.radius_alpha;
+    study.options.push_back(option);
+  }
+  return study;
+}
+
+/// One run's picture and its errors, at the last rung.
+void add_pictures(const Reference& reference, const std::vector<Entry>& entries, Study& study,
+                  const std::string& folder) {
+  if (reference.picture.empty()) return;
+  const Image truth = image_of(reference.picture, study.width, study.height);
+  study.reference.picture = embedded(to_display(truth), folder);
+  for (StudyOption& option : study.options)
+    for (const Entry& entry : entries) {
+      if (!entry.asked || entry.option.name() != option.name()) continue;
+      const bool raced = !entry.stacks.empty() && entry.stacks.back().size() > 0;
+      if (!raced && entry.pilots.empty()) continue;
+      const Picture& picture =
+          raced ? entry.stacks.back().pictures().front() : entry.pilots.front().picture;
+      const Image image = image_of(picture, study.width, study.height);
+      option.picture = embedded(to_display(image), folder);
+      option.error_map = embedded(false_colour(error_map(image, truth)), folder);
+    }
+}
+
+Study Runner::run() {
+  bool complete = true;
+  enlist();
+  try {
+    pilot();
+    refer();
+    eliminate();
+    plan_ladders();
+    replicate();
+    compare_precisions();
+  } catch (const StudyStopped&) {
+    complete = false;
+  }
+  if (load_) foreign_load_ = load_->share();
+  Study study = gather();
+  study.complete = complete;
+  add_pictures(reference_, entries_, study, request_.folder);
+  return study;
+}
+
+}  // namespace
+
+Study run_study(const StudyStage& stage, const SceneOptics& optics, const StudyRequest& request) {
+  return Runner(stage, optics, request).run();
+}
+
+}  // namespace pellucid
