@@ -209,6 +209,8 @@ def test_not_finite():
         for pair in ([bad, "good.pfm"], ["good.pfm", bad], [bad, bad]):
             expect(1, ["compare", *pair])
             expect(1, ["compare", *pair, "--fail-above", "energy_ratio=1e9"])
+    out, _ = expect(1, ["compare", "nan.pfm", "good.pfm", "--ztest"])
+    check("INCONCLUSIVE: pixels are not finite" in out, "no statistics of NaN", out)
     idiff = shutil.which("idiff")
     check(idiff, "idiff is installed (package openimageio-tools)")
     if not idiff:

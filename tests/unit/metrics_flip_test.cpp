@@ -139,6 +139,9 @@ TEST(HdrFlip, ExposuresShowTheBrightestAndTheMedian) {
   EXPECT_EQ(range.at(0), range.start);
   EXPECT_DOUBLE_EQ(range.at(7), range.stop);
   EXPECT_EQ(flip_exposures(plain({0, 0, 0})).count, 1);
+  // The example of the authors has 14 exposures, from -12.5423 to 0.9427.
+  for (std::size_t c = 0; c < 3; ++c) reference.data[c] = float(0.25 * std::exp2(12.5423 + 0.9427));
+  EXPECT_EQ(flip_exposures(reference).count, 14);
   // More than half black: the median of the rest.
   Image spot = plain({0, 0, 0}, 5, 1);
   for (std::size_t c = 0; c < 3; ++c) spot.data[c] = 2;
