@@ -1,143 +1,112 @@
 // Metrics in double; one pass for the mean of the reference, one for everything else.
 #include "image/metrics.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
-#include "base/text.h"
-
 namespace pellucid {
 namespace {
 
-constexpr int TILE = 16;  // pixels, the unit in which error is called local
-constexpr double PERCENTILE = 0.95;
-constexpr double EPSILON_OF_MEAN = 0.01;  // relative to exposure, so exposure changes no ranking
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Which channels hold colour: R,G,B, or the only one there is beside an alpha.
-std::vector<std::size_t> colour_channels(const Image& image) {
-  const int r = image.channel("R"), g = image.channel("G"), b = image.channel("B");
-  if (r >= 0 && g >= 0 && b >= 0) return {std::size_t(r), std::size_t(g), std::size_t(b)};
-  const int y = image.channel("Y");
-  if (y >= 0) return {std::size_t(y)};
-  if (image.channels.size() == 1) return {0};
-  throw InputError(
-      fmt::format("an image to be compared needs channels R, G, B or a single one; it has {}",
-                  join(image.channels)));
+/// Nearest rank: the least of the values that a share of them does not exceed. Reorders them.
+double percentile(std::vector<double>& values, double share) {
+  const auto rank = std::size_t(std::ceil(share * static_cast<double>(values.size()))) - 1;
+  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(rank), values.end());
+  return values[rank];
 }
 
-double quotient(double error, double scale) {
-  return error == 0.0 ? 0.0 : error / scale;
+/// Mean without the largest 0.1 %. Reorders the values.
+double trimmed_mean(std::vector<double>& values) {
+  constexpr double dropped = 0.001;
+  const auto kept =
+      values.size() - std::size_t(std::floor(dropped * static_cast<double>(values.size())));
+  if (kept < values.size())
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(kept), values.end());
+  double sum = 0;
+  for (std::size_t i = 0; i < kept; ++i) sum += values[i];
+  return sum / static_cast<double>(kept);
 }
 
-/// The colour values of two images of equal shape.
-class Pair {
- public:
-  Pair(const Image& a, const Image& b)
-      : a_(a), b_(b), a_channels_(colour_channels(a)), b_channels_(colour_channels(b)) {
-    if (a.width != b.width || a.height != b.height)
-      throw InputError(
-          fmt::format("sizes differ: {}x{} against {}x{}", a.width, a.height, b.width, b.height));
-    if (a_channels_.size() != b_channels_.size())
-      throw InputError(fmt::format("colour channels differ: {} against {}", a_channels_.size(),
-                                   b_channels_.size()));
-  }
-  std::size_t pixels() const { return std::size_t(a_.width) * std::size_t(a_.height); }
-  std::size_t colours() const { return a_channels_.size(); }
-  double a(std::size_t pixel, std::size_t c) const {
-    return a_.data[pixel * a_.channels.size() + a_channels_[c]];
-  }
-  double b(std::size_t pixel, std::size_t c) const {
-    return b_.data[pixel * b_.channels.size() + b_channels_[c]];
-  }
-  bool finite(std::size_t pixel) const {
-    for (std::size_t c = 0; c < colours(); ++c)
-      if (!std::isfinite(a(pixel, c)) || !std::isfinite(b(pixel, c))) return false;
-    return true;
-  }
-  /// e of metrics.h, over the finite pixels.
-  double epsilon() const {
-    double sum = 0, count = 0;
-    for (std::size_t p = 0; p < pixels(); ++p) {
-      if (!finite(p)) continue;
-      for (std::size_t c = 0; c < colours(); ++c) sum += b(p, c);
-      count += static_cast<double>(colours());
-    }
-    return quotient(EPSILON_OF_MEAN * std::abs(sum), count);
-  }
-  /// relMSE of one pixel.
-  double relmse(std::size_t pixel, double e) const {
+/// 1 means that nothing sticks out. Reorders the values, which are means over colours.
+double firefly_index(std::vector<double>& pixels) {
+  const double most = *std::max_element(pixels.begin(), pixels.end());
+  const double usual = percentile(pixels, 0.999);
+  return most == usual ? 1.0 : most / usual;
+}
+
+double energy_ratio(double a, double b) {
+  return a == b ? 1.0 : a / b;
+}
+
+void add_tiles(const ImagePair& pair, double e, ImageError& error) {
+  constexpr double one_percent = 0.01;
+  const std::vector<Tile> tiles = tiles_of(pair.width(), pair.height());
+  std::vector<double> errors;
+  for (const Tile& tile : tiles) {
     double sum = 0;
-    for (std::size_t c = 0; c < colours(); ++c) {
-      const double difference = a(pixel, c) - b(pixel, c), reference = b(pixel, c);
-      sum += quotient(difference * difference, reference * reference + e * e);
-    }
-    return sum / static_cast<double>(colours());
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) sum += pair.relmse(pair.pixel(x, y), e);
+    errors.push_back(sum / tile.pixels());
+    error.tiles_within_1pct += std::sqrt(errors.back()) <= one_percent ? 1 : 0;
   }
-
- private:
-  const Image &a_, &b_;
-  std::vector<std::size_t> a_channels_, b_channels_;
-};
-
-double percentile_of_tiles(const Pair& pair, int width, int height, double e) {
-  std::vector<double> tiles;
-  for (int y0 = 0; y0 < height; y0 += TILE) {
-    for (int x0 = 0; x0 < width; x0 += TILE) {
-      const int y1 = std::min(y0 + TILE, height), x1 = std::min(x0 + TILE, width);
-      double sum = 0;
-      for (int y = y0; y < y1; ++y)
-        for (int x = x0; x < x1; ++x)
-          sum += pair.relmse(std::size_t(y) * std::size_t(width) + std::size_t(x), e);
-      tiles.push_back(sum / (double(x1 - x0) * (y1 - y0)));
-    }
-  }
-  const auto rank = std::size_t(std::ceil(PERCENTILE * static_cast<double>(tiles.size()))) - 1;
-  std::nth_element(tiles.begin(), tiles.begin() + std::ptrdiff_t(rank), tiles.end());
-  return tiles[rank];
+  error.tiles_within_1pct /= static_cast<double>(tiles.size());
+  const auto worst = std::max_element(errors.begin(), errors.end());
+  error.worst_tile_relmse = *worst;
+  error.worst_tile = tiles[std::size_t(worst - errors.begin())];
+  error.p95_tile_relmse = percentile(errors, 0.95);
 }
 
-}  // namespace
-
-ImageError compare_images(const Image& a, const Image& reference) {
-  const Pair pair(a, reference);
-  ImageError error;
-  for (std::size_t p = 0; p < pair.pixels(); ++p) error.nonfinite += pair.finite(p) ? 0 : 1;
-  if (error.nonfinite > 0) {
-    error.mse = error.rmse = error.relmse = error.smape = NaN;
-    error.energy_ratio = error.p95_tile_relmse = NaN;
-    return error;
+void add_energy(const std::vector<double>& a, const std::vector<double>& b, ImageError& error) {
+  double all_a = 0, all_b = 0;
+  error.worst_channel_energy = 1;
+  for (std::size_t c = 0; c < a.size(); ++c) {
+    const double ratio = energy_ratio(a[c], b[c]);
+    error.channel_energy.push_back(ratio);
+    if (!(std::abs(ratio - 1) <= std::abs(error.worst_channel_energy - 1)))
+      error.worst_channel_energy = ratio;
+    all_a += a[c];
+    all_b += b[c];
   }
+  error.energy_ratio = energy_ratio(all_a, all_b);
+}
 
-  const double e = pair.epsilon();
-  double sum_a = 0, sum_b = 0;
+/// What takes one look at every pixel.
+void add_pixels(const ImagePair& pair, double e, ImageError& error) {
+  const std::size_t colours = pair.colours();
+  std::vector<double> terms, energy_a(colours), energy_b(colours), grey_a, grey_b;
+  terms.reserve(pair.pixels() * colours);
   for (std::size_t p = 0; p < pair.pixels(); ++p) {
-    for (std::size_t c = 0; c < pair.colours(); ++c) {
-      const double x = pair.a(p, c), ref = pair.b(p, c), difference = x - ref;
-      error.mse += difference * difference;
-      error.smape += quotient(2 * std::abs(difference), std::abs(x) + std::abs(ref) + e);
-      sum_a += x;
-      sum_b += ref;
+    grey_a.push_back(0);
+    grey_b.push_back(0);
+    for (std::size_t c = 0; c < colours; ++c) {
+      const double x = pair.a(p, c), ref = pair.b(p, c), square = (x - ref) * (x - ref);
+      error.mse += square;
+      error.smape += quotient(2 * std::abs(x - ref), std::abs(x) + std::abs(ref) + e);
+      terms.push_back(quotient(square, ref * ref + e * e));
+      energy_a[c] += x;
+      energy_b[c] += ref;
+      grey_a.back() += x;
+      grey_b.back() += ref;
     }
     error.relmse += pair.relmse(p, e);
   }
-  const auto pixels = static_cast<double>(pair.pixels());
-  const double values = pixels * static_cast<double>(pair.colours());
+  const double values = static_cast<double>(pair.pixels() * colours);
   error.mse /= values;
   error.rmse = std::sqrt(error.mse);
   error.smape /= values;
-  error.relmse /= pixels;
-  error.energy_ratio = sum_a == sum_b ? 1.0 : sum_a / sum_b;
-  error.p95_tile_relmse = percentile_of_tiles(pair, a.width, a.height, e);
-  return error;
+  error.relmse /= static_cast<double>(pair.pixels());
+  error.trimmed_relmse = trimmed_mean(terms);
+  error.firefly_index = firefly_index(grey_a);
+  error.reference_firefly_index = firefly_index(grey_b);
+  add_energy(energy_a, energy_b, error);
 }
 
-Image error_map(const Image& a, const Image& reference) {
-  const Pair pair(a, reference);
+/// One value per pixel; NaN where either image is not finite.
+template <typename Value>
+Image map_of(const Image& a, const Image& reference, const Value& value) {
+  const ImagePair pair(a, reference);
   const double e = pair.epsilon();
   Image map;
   map.width = a.width;
@@ -145,8 +114,43 @@ Image error_map(const Image& a, const Image& reference) {
   map.channels = {"error"};
   map.data.reserve(pair.pixels());
   for (std::size_t p = 0; p < pair.pixels(); ++p)
-    map.data.push_back(static_cast<float>(pair.finite(p) ? std::sqrt(pair.relmse(p, e)) : NaN));
+    map.data.push_back(static_cast<float>(pair.finite(p) ? value(pair, p, e) : NaN));
   return map;
+}
+
+}  // namespace
+
+ImageError compare_images(const Image& a, const Image& reference) {
+  const ImagePair pair(a, reference);
+  ImageError error;
+  error.nonfinite = pair.count_nonfinite();
+  if (error.nonfinite > 0) {
+    for (double ImageError::*metric :
+         {&ImageError::mse, &ImageError::rmse, &ImageError::relmse, &ImageError::trimmed_relmse,
+          &ImageError::smape, &ImageError::energy_ratio, &ImageError::worst_channel_energy,
+          &ImageError::p95_tile_relmse, &ImageError::worst_tile_relmse,
+          &ImageError::tiles_within_1pct, &ImageError::firefly_index,
+          &ImageError::reference_firefly_index})
+      error.*metric = NaN;
+    error.channel_energy.assign(pair.colours(), NaN);
+    return error;
+  }
+  const double e = pair.epsilon();
+  add_pixels(pair, e, error);
+  add_tiles(pair, e, error);
+  return error;
+}
+
+Image error_map(const Image& a, const Image& reference) {
+  return map_of(a, reference, [](const ImagePair& pair, std::size_t p, double e) {
+    return std::sqrt(pair.relmse(p, e));
+  });
+}
+
+Image signed_map(const Image& a, const Image& reference) {
+  return map_of(a, reference, [](const ImagePair& pair, std::size_t p, double e) {
+    return pair.signed_error(p, e);
+  });
 }
 
 ChannelStatistics channel_statistics(const Image& image, std::size_t channel) {

@@ -34,9 +34,18 @@ Image to_display(const Image& linear, const DisplayTransform& display = {});
 /// between; NaN is green, which occurs nowhere else. Clipped.
 std::array<float, 3> heat_colour(float t);
 
-/// One channel of relative errors as display-referred RGB on a logarithmic scale: 0.001 and less
-/// black, 0.01 blue, 0.1 red, 1 yellow, 10 and more white, straight lines in between; NaN is green,
+/// What the numbers of a map of errors mean, and thus their colours.
+enum class ErrorScale {
+  relative,         ///< on a logarithmic scale: 0.001 and less black, 0.01 blue, 0.1 red, 1 yellow,
+                    ///< 10 and more white
+  perceived,        ///< 0 black, over violet and orange to 1 pale yellow: matplotlib's magma
+  signed_relative,  ///< white where 0.001 or less is missing or in excess, on a logarithmic scale
+                    ///< to full blue (too dark) or red (too bright) at 1
+  deviations,       ///< 0 white, straight to full blue at -5 and red at 5
+};
+
+/// One channel of errors as display-referred RGB, straight lines between colours; NaN is green,
 /// which occurs nowhere else.
-Image false_colour(const Image& error);
+Image false_colour(const Image& error, ErrorScale scale = ErrorScale::relative);
 
 }  // namespace pellucid

@@ -6,6 +6,7 @@ Needs idiff from the package openimageio-tools.
 """
 import json
 import os
+import random
 import shutil
 import struct
 import subprocess
@@ -82,7 +83,17 @@ def test_usage():
     expect(2, [*pair, "--json"], "--json")
     expect(2, [*pair, "-q", "-v"], "--quiet excludes --verbose")
     expect(2, [*pair, "--fail-above", "remlse=1"], "'remlse'", "Did you mean 'relmse'?")
-    expect(2, [*pair, "--fail-above", "flip=1"], "'flip'", "relmse")
+    expect(2, [*pair, "--fail-above", "ssim=1"], "'ssim'", "relmse")
+    expect(2, [*pair, "--fail-above", "bias2=1"], "bias2", "--with")
+    expect(2, [*pair, "--map", "flip"], "--map", "-o")
+    expect(2, [*pair, "--map", "flop", "-o", "x.png"], "'flop'", "Did you mean 'flip'?")
+    expect(2, [*pair, "--map", "z", "-o", "x.png"], "good.pfm", "--aov variance")
+    expect(2, [*pair, "--ztest"], "good.pfm", "--aov variance")
+    expect(2, [*pair, "--ztest-tile", "1%"], "--ztest-tile", "no effect")
+    for value in ("0", "101%", "-1", "nan"):
+        expect(2, [*pair, "--ztest", "--ztest-image=" + value], "--ztest-image")
+    for value in ("0.5", "1001", "x"):
+        expect(2, [*pair, "--ppd", value], "--ppd")
     for value in ("", "x", "nan", "-1", "1e-3x"):
         expect(2, [*pair, "--fail-above", "relmse=" + value], "--fail-above relmse")
     expect(2, [*pair, "--fail-above", "relmse"], "metric=value")
@@ -91,11 +102,16 @@ def test_usage():
 def test_gates():
     pair = ["compare", "brighter.pfm", "good.pfm"]
     out, _ = expect(0, pair)
-    for name in ("nonfinite", "mse", "rmse", "relmse", "smape", "p95_tile_relmse", "energy_ratio"):
+    names = ("nonfinite", "mse", "rmse", "relmse", "trimmed_relmse", "smape", "flip", "hdr_flip",
+             "p95_tile_relmse", "worst_tile_relmse", "tiles_within_1pct", "energy_ratio",
+             "worst_channel_energy", "firefly_index")
+    for name in names:
         check(f"\n{name} " in "\n" + out, f"the table has {name}", out)
     expect(0, [*pair, "--fail-above", "relmse=2%", "--fail-above", "energy_ratio=0.11"])
     for gate in ("mse=1e-3", "rmse=0.06", "relmse=0.9%", "smape=0.09", "p95_tile_relmse=0.009",
-                 "energy_ratio=0.09"):
+                 "energy_ratio=0.09", "trimmed_relmse=0.9%", "flip=0.01", "hdr_flip=0.01",
+                 "worst_tile_relmse=0.9%", "tiles_within_1pct=99%", "worst_channel_energy=9%",
+                 "firefly_index=0.99"):
         out, _ = expect(1, [*pair, "--fail-above", "mse=9", "--fail-above", gate])
         check(out.count("FAILS") == 1 and out.count("holds") == 1, f"{gate} is shown", out)
     # Energy may be missing as well as in excess.
@@ -110,6 +126,13 @@ def test_json():
     check(document["schema"] == 1 and document["nonfinite"] == 0, "JSON has a schema", out)
     check(abs(document["energy_ratio"] - 1.1) < 1e-6, "JSON has the ratio", out)
     check(abs(document["mse"] - 0.01 * (0.0625 + 0.25 + 1) / 3) < 1e-8, "JSON has the MSE", out)
+    for name in ("trimmed_relmse", "flip", "hdr_flip", "worst_tile_relmse", "firefly_index"):
+        check(0 < document[name] <= 1, f"JSON has {name}", out)
+    check(document["worst_tile"] == {"x0": 0, "x1": 8, "y0": 0, "y1": 4}, "and where it is", out)
+    check(document["tiles_within_1pct"] == 0, "no tile is near", out)
+    check(all(abs(ratio - 1.1) < 1e-6 for ratio in document["energy_ratio_by_channel"])
+          and len(document["energy_ratio_by_channel"]) == 3, "energy by channel", out)
+    check("ztest" not in document and "variance" not in document, "nothing that was not asked", out)
     check(document["gates"] == [{"metric": "relmse", "limit": 1e-9, "holds": False}], "gates", out)
     out, _ = expect(1, ["compare", "nan.pfm", "good.pfm", "--json", "nan.json"])
     check("FAILS" in out, "the table goes to stdout beside a JSON file", out)
@@ -140,6 +163,44 @@ def test_diff_picture():
     with open("diff.png", "rb") as file:
         check(file.read(8) == b"\x89PNG\r\n\x1a\n", "diff.png is a PNG")
     expect(0, ["compare", "diff.png", "diff.png", "--fail-above", "mse=0"])
+    for name in ("relative", "flip", "hdr-flip", "signed"):
+        expect(0, ["compare", "brighter.pfm", "good.pfm", "--map", name, "-o", name + ".png"])
+        expect(0, ["compare", "brighter.pfm", "good.pfm", "--map", name, "-o", name + ".exr"])
+    out, _ = expect(0, ["info", "signed.png", "--json", "-"])
+    means = [json.loads(out)["statistics"][channel]["mean"] for channel in "RGB"]
+    check(means[0] > means[1] > means[2], "too bright is red", means)
+
+
+def test_several_runs():
+    """Runs 1 +- 0.1 by pixel about good.pfm, whose truth is known: variance 0.01 v^2, bias as given."""
+    rng = random.Random(3)
+    good = [0.25, 0.5, 1.0] * 32
+    for k in range(8):
+        write_pfm(f"run{k}.pfm", [v * (1 + 0.1 * rng.gauss(0, 1)) for v in good])
+        write_pfm(f"off{k}.pfm", [v * (1.2 + 0.1 * rng.gauss(0, 1)) for v in good])
+    others = ["--with", *(f"run{k}.pfm" for k in range(1, 8))]
+    out, _ = expect(0, ["compare", "run0.pfm", "good.pfm", *others, "--json", "-"])
+    document = json.loads(out)
+    check(document["runs"] == 8 and len(document["with"]) == 7, "all are named", document)
+    # 96 values x 7 degrees: s^2 is known to sqrt(2/672) = 5.5 %; three of these.
+    check(abs(document["relvariance"] / 0.01 - 1) < 0.17, "the variance of one run", document)
+    check(abs(document["relbias2"]) < 1e-3 < document["relvariance"], "no bias", document)
+    check(document["relbias2"] < document["relbias2_upper90"] < 4e-3, "bounded", document)
+    low, high = document["relvariance_interval90"]
+    check(low < document["relvariance"] < high, "within its interval", document)
+    check(not document["reference_variance_subtracted"], "good.pfm tells none", document)
+    others = [word for k in range(1, 8) for word in ("--with", f"off{k}.pfm")]
+    pair = ["compare", "off0.pfm", "good.pfm", *others]
+    out, _ = expect(1, [*pair, "--fail-above", "relbias2=0.03"])
+    check("FAILS" in out and "taken as exact" in out and "of 8 runs" in out, "bias shows", out)
+    expect(0, [*pair, "--fail-above", "relbias2=0.045", "--fail-above", "relbias2_upper90=0.05",
+               "--fail-above", "relvariance=0.013", "--fail-above", "bias2=1",
+               "--fail-above", "variance=1", "--fail-above", "bias2_upper90=1"])
+    expect(1, ["compare", "run0.pfm", "good.pfm", "--with", "nan.pfm"])
+    expect(3, ["compare", "run0.pfm", "good.pfm", "--with", "run0.pfm"], "run0.pfm", "same samples")
+    expect(3, ["compare", "run0.pfm", "good.pfm", "--with", "good.pfm"], "same samples")
+    expect(3, ["compare", "run0.pfm", "good.pfm", "--with", "smaller.pfm"], "smaller.pfm", "sizes")
+    expect(3, ["compare", "run0.pfm", "good.pfm", "--with", "none.pfm"], "none.pfm")
 
 
 def test_not_finite():
@@ -148,6 +209,8 @@ def test_not_finite():
         for pair in ([bad, "good.pfm"], ["good.pfm", bad], [bad, bad]):
             expect(1, ["compare", *pair])
             expect(1, ["compare", *pair, "--fail-above", "energy_ratio=1e9"])
+    out, _ = expect(1, ["compare", "nan.pfm", "good.pfm", "--ztest"])
+    check("INCONCLUSIVE: pixels are not finite" in out, "no statistics of NaN", out)
     idiff = shutil.which("idiff")
     check(idiff, "idiff is installed (package openimageio-tools)")
     if not idiff:

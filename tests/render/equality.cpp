@@ -1,10 +1,12 @@
-// Student's t, Welch's test, and the verdict over image and tiles.
+// Welch's test, and the verdict over image and tiles.
 #include "equality.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numeric>
+
+#include "base/statistics.h"
 
 namespace pellucid::test {
 namespace {
@@ -25,33 +27,7 @@ double mean_of(const Sample& s) {
   return mean_variance(s).mean;
 }
 
-/// P(|T| > t): with t = sqrt(n) tan(x) the density is proportional to cos(x)^(n-1).
-double student_tail(double t, double degrees) {
-  constexpr int steps = 2000;
-  const double x0 = std::atan(t / std::sqrt(degrees)), x1 = std::acos(0.0);
-  const auto integral = [&](double from) {  // Simpson
-    const double h = (x1 - from) / steps;
-    double sum = 0;
-    for (int i = 0; i <= steps; ++i)
-      sum += (i == 0 || i == steps ? 1
-              : i % 2              ? 4
-                                   : 2) *
-             std::pow(std::cos(from + i * h), degrees - 1);
-    return sum * h / 3;
-  };
-  return integral(x0) / integral(0);
-}
-
 }  // namespace
-
-double student_t(double alpha, double degrees) {
-  double low = 0, high = 1e3;
-  for (int i = 0; i < 60; ++i) {
-    const double mid = 0.5 * (low + high);
-    (student_tail(mid, degrees) > alpha ? low : high) = mid;
-  }
-  return high;
-}
 
 Estimate estimate(const Sample& sample) {
   const MeanVariance m = mean_variance(sample);
@@ -67,7 +43,7 @@ std::string welch(const Sample& a, const Sample& b, double alpha, double within)
   const double degrees =
       variance * variance /
       (ma.variance * ma.variance / (na - 1) + mb.variance * mb.variance / (nb - 1));
-  const double width = student_t(alpha, std::floor(degrees)) * std::sqrt(variance);
+  const double width = -student_quantile(alpha / 2, std::floor(degrees)) * std::sqrt(variance);
   const std::string found = fmt::format(
       "{:.6g} against {:.6g}, off by {:.2g}, interval {:.2g}, "
       "allowed {:.2g}",

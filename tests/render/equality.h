@@ -10,9 +10,6 @@
 
 namespace pellucid::test {
 
-/// Quantile of Student's t: P(|T| > t) = alpha.
-double student_t(double alpha, double degrees);
-
 /// One number per run, independent of each other.
 using Sample = std::vector<double>;
 

@@ -99,6 +99,61 @@ TEST(Metrics, P95IsTheNearestRankOfTiles) {
   EXPECT_NEAR(compare_images(a, b).p95_tile_relmse, 19.0 * 19.0 / (100.0 * 100.0 + 1.0), 1e-12);
 }
 
+TEST(Metrics, WorstTileIsFoundAndGoodOnesAreCounted) {
+  Image a = grey(64, 32, std::vector<float>(64 * 32, 1.0f));
+  const Image b = a;
+  for (int y = 16; y < 32; ++y)
+    for (int x = 16; x < 48; ++x) a.data[std::size_t(y * 64 + x)] = x < 32 ? 1.009f : 1.5f;
+  const ImageError error = compare_images(a, b);
+  EXPECT_NEAR(error.worst_tile_relmse, 0.25 / 1.0001, 1e-12);
+  EXPECT_EQ(error.worst_tile.x0, 32);
+  EXPECT_EQ(error.worst_tile.y0, 16);
+  EXPECT_EQ(error.worst_tile.x1, 48);
+  EXPECT_DOUBLE_EQ(error.tiles_within_1pct, 7.0 / 8);
+}
+
+TEST(Metrics, TrimmingDropsTheLargestThousandth) {
+  Image a = grey(1000, 2, std::vector<float>(2000, 1.1f));
+  const Image b = grey(1000, 2, std::vector<float>(2000, 1.0f));
+  a.data[5] = a.data[1500] = 1000;  // two of two thousand
+  const ImageError error = compare_images(a, b);
+  EXPECT_GT(error.relmse, 900);
+  EXPECT_NEAR(error.trimmed_relmse, 0.01 / 1.0001, 1e-8);
+  a.data[7] = 11;  // the third stays
+  EXPECT_NEAR(compare_images(a, b).trimmed_relmse, (1997 * 0.01 + 100) / 1998 / 1.0001, 1e-8);
+  EXPECT_DOUBLE_EQ(compare_images(grey(2, 1, {3, 2}), grey(2, 1, {2, 4})).trimmed_relmse,
+                   compare_images(grey(2, 1, {3, 2}), grey(2, 1, {2, 4})).relmse);
+}
+
+TEST(Metrics, EnergyOfChannelsCannotHideBehindEachOther) {
+  Image a = rgb(2, 2, 1), b = rgb(2, 2, 1);
+  for (std::size_t i = 0; i < a.data.size(); i += 3) {
+    a.data[i] = 0.75f;
+    a.data[i + 1] = 1.25f;
+  }
+  const ImageError error = compare_images(a, b);
+  EXPECT_DOUBLE_EQ(error.energy_ratio, 1);
+  EXPECT_EQ(error.channel_energy, (std::vector<double>{0.75, 1.25, 1}));
+  EXPECT_DOUBLE_EQ(error.worst_channel_energy, 0.75);
+}
+
+TEST(Metrics, FirefliesStickOutOfTheHighestThousandth) {
+  Image a = grey(1000, 2, std::vector<float>(2000, 2.0f));
+  const Image b = a;
+  EXPECT_DOUBLE_EQ(compare_images(a, b).firefly_index, 1);
+  a.data[77] = 50;
+  EXPECT_DOUBLE_EQ(compare_images(a, b).firefly_index, 25);
+  EXPECT_DOUBLE_EQ(compare_images(a, b).reference_firefly_index, 1);
+  EXPECT_DOUBLE_EQ(compare_images(b, a).reference_firefly_index, 25);
+}
+
+TEST(Metrics, SignedMapHasTheSignOfTheError) {
+  const Image map = signed_map(grey(3, 1, {3, 2, NAN}), grey(3, 1, {2, 4, 1}));
+  EXPECT_NEAR(map.data[0], 1.0 / std::sqrt(4.0009), 1e-6);
+  EXPECT_NEAR(map.data[1], -2.0 / std::sqrt(16.0009), 1e-6);
+  EXPECT_TRUE(std::isnan(map.data[2]));
+}
+
 TEST(Metrics, TilesAtTheBorderAreMeansOfFewerPixels) {
   Image a = grey(17, 1, std::vector<float>(17, 1.0f));
   const Image b = a;
@@ -149,6 +204,24 @@ TEST(Tonemap, FalseColoursKeepTheirScale) {
   EXPECT_EQ(colour(4), (std::vector<float>{1, 1, 1}));
   EXPECT_EQ(colour(5), (std::vector<float>{1, 1, 1}));
   EXPECT_EQ(colour(6), (std::vector<float>{0, 1, 0}));
+}
+
+TEST(Tonemap, SignedColoursAreWhiteInTheMiddleAndMirrored) {
+  using Rgb = std::vector<float>;
+  const auto colour = [](float value, ErrorScale scale) {
+    return false_colour(grey(1, 1, {value}), scale).data;
+  };
+  for (const ErrorScale scale : {ErrorScale::signed_relative, ErrorScale::deviations}) {
+    EXPECT_EQ(colour(0, scale), (Rgb{1, 1, 1}));
+    EXPECT_EQ(colour(9, scale), (Rgb{0.5f, 0, 0}));
+    EXPECT_EQ(colour(-9, scale), (Rgb{0, 0.1f, 0.5f}));
+    EXPECT_EQ(colour(NAN, scale), (Rgb{0, 1, 0}));
+  }
+  EXPECT_EQ(colour(5e-4f, ErrorScale::signed_relative), (Rgb{1, 1, 1}));
+  EXPECT_NEAR(colour(-std::pow(10.0f, -1.5f), ErrorScale::signed_relative)[2], 0.9f, 1e-5f);
+  EXPECT_NEAR(colour(2.5f, ErrorScale::deviations)[0], 0.9f, 1e-6f);
+  EXPECT_NEAR(colour(0.5f, ErrorScale::perceived)[0], 0.716387f, 1e-6f);  // magma's middle
+  EXPECT_EQ(colour(0, ErrorScale::perceived)[2], 0.013866f);
 }
 
 }  // namespace
