@@ -44,7 +44,7 @@ void Contender::run(std::uint64_t seed, const std::vector<std::uint64_t>& ladder
     at.picture = film_image(session.film(), false, false).data;
     step(at);
   }
-  overhead_ += whole.seconds() - wall;
+  overhead_ = std::min(overhead_, whole.seconds() - wall);
   wall_ += wall;
   account(session, ladder.back());
 }
@@ -56,11 +56,11 @@ LadderStep Contender::run(std::uint64_t seed, std::uint64_t spp) {
 }
 
 double Contender::cost(std::uint64_t spp) const {
-  return overhead_ / runs_ + double(spp) * wall_ / double(spp_);
+  return overhead_ + double(spp) * wall_ / double(spp_);
 }
 
 double Contender::spp_in(double seconds) const {
-  return std::max(0.0, (seconds - overhead_ / runs_) / (wall_ / double(spp_)));
+  return std::max(0.0, (seconds - overhead_) / (wall_ / double(spp_)));
 }
 
 void Contender::account(const Session& session, std::uint64_t spp) {

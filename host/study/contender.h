@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "pack/pack.h"
@@ -55,7 +56,9 @@ class Contender {
   const Integrator* method_;
   std::string precision_;
   RenderOptions options_;
-  double overhead_ = 0, wall_ = 0;  ///< wall seconds: beside rendering, and of it
+  /// Wall seconds beside rendering: the least of any run, since the first builds kernels.
+  double overhead_ = std::numeric_limits<double>::max();
+  double wall_ = 0;  ///< of rendering, in all
   double setup_seconds_ = 0;
   int runs_ = 0;
   std::uint64_t wrong_ = 0, memory_bytes_ = 0, spp_ = 0;

@@ -10,7 +10,9 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "base/statistics.h"
+#include "base/text.h"
 #include "base/timer.h"
 #include "image/metrics.h"
 #include "image/tonemap.h"
@@ -50,6 +52,9 @@ struct Entry {
   }
 };
 
+/// Thrown between two runs when nothing is left; what comes after has no figures.
+struct BudgetSpent {};
+
 class Runner {
  public:
   Runner(const StudyStage& stage, const SceneOptics& optics, const StudyRequest& request)
@@ -84,9 +89,11 @@ class Runner {
   double foreign_load_ = 0;
 };
 
+/// Before every run: what it is, and how long the whole study will still take.
 void Runner::tell(const std::string& text) const {
-  const double left = std::max(0.0, request_.budget_seconds - clock_.seconds());
-  request_.tell(fmt::format("{}  at most {:.0f} s left", text, left));
+  const double left = request_.budget_seconds - clock_.seconds();
+  if (left <= 0) throw BudgetSpent();
+  request_.tell(fmt::format("{}  at most {} left", text, format_seconds(left)));
 }
 
 /// Options asked for, and methods that could make the reference.
@@ -108,6 +115,10 @@ void Runner::enlist() {
 }
 
 void Runner::pilot() {
+  for (Entry& entry : entries_) {
+    tell(fmt::format("building kernels: {}", entry.contender->method().name));
+    entry.contender->run(seed(pilot_seeds, pilot_runs), SOBOL_BLOCK);
+  }
   for (int k = 0; k < pilot_runs; ++k)
     for (Entry& entry : entries_) {
       if (entry.option.state == OptionState::refused) continue;
@@ -360,6 +371,8 @@ Study Runner::run() {
     compare_precisions();
   } catch (const StudyStopped&) {
     complete = false;
+  } catch (const BudgetSpent&) {
+    log_info("the budget of {} is spent", format_seconds(request_.budget_seconds));
   }
   if (load_) foreign_load_ = load_->share();
   Study study = gather();
