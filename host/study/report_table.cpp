@@ -1,0 +1,156 @@
+// table.md, its columns aligned.
+#include "study/report_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "study/report_facts.h"
+#include "study/report_text.h"
+
+namespace pellucid {
+namespace {
+
+/// The farthest a rung lies from the time it is shown for: rungs double.
+constexpr double NEAR_RUNG = 1.5;
+
+using Row = std::vector<std::string>;
+
+/// In one line and without what Markdown reads as a column's end.
+std::string cell(const std::string& text) {
+  std::string clean;
+  for (char c : text) {
+    if (c == '|') clean += '\\';
+    clean += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return clean;
+}
+
+/// Letters, not bytes, of UTF-8.
+std::size_t letters(const std::string& text) {
+  return std::size_t(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string markdown_table(std::vector<Row> rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 3);
+  for (Row& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      row[c] = cell(row[c]);
+      widths[c] = std::max(widths[c], letters(row[c]));
+    }
+  std::string text;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t c = 0; c < rows[r].size(); ++c)
+      text += "| " + rows[r][c] + std::string(widths[c] - letters(rows[r][c]) + 1, ' ');
+    text += "|\n";
+    if (r > 0) continue;
+    for (std::size_t width : widths) text += "|" + std::string(width + 2, '-');
+    text += "|\n";
+  }
+  return text;
+}
+
+std::string option_table(const Study& study) {
+  const std::vector<double> times = round_times(study);
+  std::vector<Row> rows{{"option", "setup s"}};
+  for (double t : times) rows[0].push_back(duration(t, 1));
+  for (const std::string& head :
+       {std::string("slope [90 %]"), std::string("bias <="),
+        "to " + percent(study.target, 1) + " [90 %]", std::string("flags")})
+    rows[0].push_back(head);
+  for (std::size_t i : ranked(study)) {
+    const StudyOption& option = study.options[i];
+    const std::vector<std::string> flags = flags_of(study, i);
+    Row row{option.name(), option.setup_seconds > 0 ? digits(option.setup_seconds) : "-"};
+    for (double t : times) row.push_back(error_near(option, t));
+    row.push_back(slope_text(verdict_of(study, i)));
+    row.push_back(bias_text(option));
+    row.push_back(target_text(study, i));
+    row.push_back(join(flags.empty() ? std::vector{rank_text(study, i)} : flags, "; "));
+    rows.push_back(row);
+  }
+  return markdown_table(rows);
+}
+
+std::string pair_table(const Study& study) {
+  std::vector<Row> rows{{"precision", "bias", "bias <=", "divergent paths per million",
+                         "time / strict [least, largest]", "harmless until t*"}};
+  for (const PrecisionPair& pair : study.pairs) {
+    const std::optional<FloorTime> floor = floor_time(study, pair);
+    rows.push_back({pair.integrator + " " + pair.precision,
+                    pair.bias2 > 0 ? percent(std::sqrt(pair.bias2)) : "0",
+                    pair.bias2_upper90 > 0 ? percent(std::sqrt(pair.bias2_upper90)) : "-",
+                    digits(pair.divergent_per_million, 3),
+                    fmt::format("{} [{}, {}]", digits(pair.time_ratio, 3), digits(pair.time_low, 3),
+                                digits(pair.time_high, 3)),
+                    floor ? (floor->at_least ? ">= " : "") + duration(floor->seconds) : "-"});
+  }
+  return markdown_table(rows);
+}
+
+std::string bullets(const std::string& title, const std::vector<std::string>& items) {
+  if (items.empty()) return "";
+  std::string text = "\n" + title + "\n\n";
+  for (const std::string& item : items) text += "- " + cell(item) + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::vector<double> round_times(const Study& study) {
+  static const double round[] = {0.01, 0.03, 0.1,  0.3,  1,     3,     10,    30,    60,
+                                 180,  600,  1800, 3600, 10800, 36000, 86400, 259200};
+  double longest = 0;
+  for (const StudyOption& option : study.options) longest = std::max(longest, longest_run(option));
+  std::vector<double> times;
+  for (auto t = std::rbegin(round); t != std::rend(round) && times.size() < 3; ++t) {
+    if (*t > NEAR_RUNG * longest || (!times.empty() && *t > times.back() / 5)) continue;
+    if (std::any_of(study.options.begin(), study.options.end(),
+                    [&](const StudyOption& option) { return error_near(option, *t) != "-"; }))
+      times.push_back(*t);
+  }
+  std::reverse(times.begin(), times.end());
+  return times;
+}
+
+std::string error_near(const StudyOption& option, double seconds) {
+  const ErrorPoint* nearest = nullptr;
+  double distance = std::log(NEAR_RUNG);
+  const std::vector<ErrorPoint> curve = error_curve(option);
+  for (const ErrorPoint& point : curve) {
+    const double d = std::abs(std::log(point.seconds / seconds));
+    if (point.seconds > 0 && d <= distance) nearest = &point, distance = d;
+  }
+  if (!nearest || (!nearest->error && !nearest->high)) return "-";
+  std::string text = nearest->error ? percent(*nearest->error) : "<= " + percent(*nearest->high);
+  if (distance > std::log(1.1)) text += " (" + duration(nearest->seconds) + ")";
+  return text;
+}
+
+std::string study_table(const Study& study) {
+  std::string text = "# What accuracy costs: " + cell(study.scene) + "\n\n";
+  text += study.recommendation.empty() ? "No recommendation." : cell(study.recommendation);
+  text += "\n\n" + cell(settings_line(study)) + ".\n";
+  if (!study.complete) text += "\nStopped early: what follows rests on the runs made until then.\n";
+  text += bullets("Warnings:", study.warnings);
+  if (!study.options.empty()) {
+    text += "\n" + option_table(study);
+    text +=
+        "\nErrors are sqrt(relMSE), mean of the runs, at the rung nearest to the time (the rung's "
+        "own in brackets\nif off by more than a tenth); bias <= and slope at 90 % confidence.\n";
+  }
+  if (!study.pairs.empty())
+    text +=
+        "\n" + pair_table(study) +
+        "\nPrecisions are compared with strict arithmetic by the same seeds; t* is where strict "
+        "noise meets the bias.\n";
+  text += bullets("Reference:", reference_lines(study.reference));
+  text += "\nMachine: " + cell(machine_line(study.machine)) + ".\n";
+  text += bullets("What would change this verdict:", study.would_change);
+  return text;
+}
+
+}  // namespace pellucid
