@@ -93,7 +93,7 @@ void StudyCommand::set_size(Scene& s) const {
     std::tie(settings.width, settings.height) = parse_size("--size", size);
     return;
   }
-  constexpr double most = 128.0 * 128.0;
+  constexpr double most = 96.0 * 96.0;
   const double shrink = std::sqrt(most / (double(settings.width) * double(settings.height)));
   if (!crop.empty() || !reference.empty() || shrink >= 1) return;
   settings.width = std::max(1, int(std::lround(settings.width * shrink)));
@@ -209,7 +209,7 @@ CommandRun setup_study(CLI::App& app) {
                  "methods are tried in each")
       ->type_name("all|LIST");
   app.add_option("--size", c->size,
-                 "pixels (default: the scene's shape, in 128 x 128 pixels at most)")
+                 "pixels (default: the scene's shape, in 96 x 96 pixels at most)")
       ->type_name("WxH");
   app.add_option("--crop", c->crop, "x0,x1,y0,y1: a part of the picture, half-open")
       ->type_name("X0,X1,Y0,Y1");

@@ -23,6 +23,7 @@
 #include "study/ladder.h"
 #include "study/machine_load.h"
 #include "study/pairs.h"
+#include "study/race.h"
 #include "study/reference.h"
 
 namespace pellucid {
@@ -30,27 +31,10 @@ namespace {
 
 // Shares of the budget (accuracy.md 9); what one leaves, the next has.
 constexpr double until_reference = 0.4, until_main = 0.9;
-constexpr int pilot_runs = 4, main_runs = 10, blind_runs = 4;
 constexpr std::uint64_t pilot_spp = 2 * SOBOL_BLOCK;
 /// Seeds of the stages, far enough apart that none has another's.
 constexpr std::uint64_t pilot_seeds = 1000000, reference_seeds = 2000000, pair_seeds = 3000000,
                         seeds_of_a_study = 10000000;
-
-/// An option of the study, or a method that only helps to make the reference.
-struct Entry {
-  std::unique_ptr<Contender> contender;
-  StudyOption option;
-  bool asked = false, trusted = false;
-  std::vector<LadderStep> pilots;
-  std::vector<std::uint64_t> ladder;
-  std::vector<PictureStack> stacks;  ///< by rung
-
-  double pilot_seconds() const {
-    double sum = 0;
-    for (const LadderStep& p : pilots) sum += p.rung.seconds;
-    return sum / double(pilots.size());
-  }
-};
 
 /// Thrown between two runs when nothing is left; what comes after has no figures.
 struct BudgetSpent {};
@@ -65,14 +49,11 @@ class Runner {
   void enlist();
   void pilot();
   void refer();
-  void eliminate();
-  void plan_ladders();
   void replicate();
   void replicate_one(Entry& entry, int k);
   void compare_precisions();
   void finish(Entry& entry);
   Study gather();
-  std::vector<Entry*> racing();
   std::uint64_t seed(std::uint64_t stage, int k) const {
     return request_.seed * seeds_of_a_study + stage + std::uint64_t(k);
   }
@@ -82,11 +63,10 @@ class Runner {
   const SceneOptics& optics_;
   const StudyRequest& request_;
   Timer clock_;
-  std::unique_ptr<MachineLoad> load_;
+  MachineLoad load_;
   std::vector<Entry> entries_;
   Reference reference_;
   std::vector<PrecisionPair> pairs_;
-  double foreign_load_ = 0;
 };
 
 /// Before every run: what it is, and how long the whole study will still take.
@@ -130,6 +110,17 @@ void Runner::pilot() {
     }
 }
 
+using Ranking = std::vector<std::pair<double, Entry*>>;
+
+/// The best but one of the voices, if possible one of other kernels: a fault that both have would
+/// not show.
+Entry* other_voice(const Ranking& voices) {
+  const auto kernels = [](const Entry* e) { return e->contender->method().kernels(); };
+  for (const auto& [cost, entry] : voices)
+    if (kernels(entry) != kernels(voices[0].second)) return entry;
+  return voices.size() > 1 ? voices[1].second : voices[0].second;
+}
+
 /// Which methods may speak for the truth: unbiased, and aiming at all paths; the quickest two.
 void Runner::refer() {
   if (!request_.reference.empty()) {
@@ -145,7 +136,7 @@ void Runner::refer() {
       for (const LadderStep& p : entry.pilots) all.add(p.picture);
   if (all.size() == 0) throw UsageError("no method can make a reference; give one with --ref FILE");
   const std::vector<double> weights = relmse_weights(all.mean());
-  std::vector<std::pair<double, Entry*>> unbiased, merging;  // relMSE x seconds
+  Ranking unbiased, merging;  // by relMSE x seconds
   for (Entry& entry : entries_) {
     if (!entry.trusted || entry.option.state == OptionState::refused) continue;
     PictureStack own;
@@ -157,76 +148,13 @@ void Runner::refer() {
   std::sort(unbiased.begin(), unbiased.end(), by_cost);
   std::sort(merging.begin(), merging.end(), by_cost);
   if (!unbiased.empty()) {
-    Entry* other = unbiased.size() > 1 ? unbiased[1].second : unbiased[0].second;
-    reference_ = make_reference(*unbiased[0].second->contender, *other->contender,
+    reference_ = make_reference(*unbiased[0].second->contender, *other_voice(unbiased)->contender,
                                 seed(reference_seeds, 0), seconds, say);
   } else {
     const double radius = stage_.options.radius.value_or(
         default_radius(stage_.packed, stage_.options.light_path_count()));
     reference_ = extrapolate_reference(*merging[0].second->contender, radius,
                                        seed(reference_seeds, 0), seconds, say);
-  }
-}
-
-/// What is ten times dearer than the best, at a confidence of 99 %, gets no more of the budget.
-void Runner::eliminate() {
-  constexpr double dearer = 10, confidence = 0.99;
-  const double t = student_quantile(confidence, 2 * (pilot_runs - 1));
-  struct Cost {
-    Entry* entry;
-    double mean = 0, error = 0;  ///< of log (relMSE x seconds)
-  };
-  std::vector<Cost> costs;
-  for (Entry& entry : entries_) {
-    if (!entry.asked || entry.option.state != OptionState::main) continue;
-    Cost cost{&entry};
-    std::vector<double> logs;
-    for (const LadderStep& p : entry.pilots)
-      logs.push_back(std::log(weighted_distance(p.picture, reference_.picture, reference_.weights) *
-                              p.rung.seconds));
-    for (double v : logs) cost.mean += v / pilot_runs;
-    for (double v : logs) cost.error += std::pow(v - cost.mean, 2);
-    cost.error = std::sqrt(cost.error / (pilot_runs - 1) / pilot_runs);
-    entry.option.pilot_efficiency = std::exp(-cost.mean);
-    costs.push_back(cost);
-  }
-  if (costs.empty()) return;
-  const Cost& best = *std::min_element(
-      costs.begin(), costs.end(), [](const Cost& a, const Cost& b) { return a.mean < b.mean; });
-  for (const Cost& cost : costs) {
-    const double worse = cost.mean - best.mean - t * std::hypot(cost.error, best.error);
-    if (worse < std::log(dearer)) continue;
-    cost.entry->option.state = OptionState::pilot;
-    cost.entry->option.reason =
-        fmt::format("about {:.0f} times dearer than {}", std::exp(cost.mean - best.mean),
-                    best.entry->contender->method().name);
-  }
-}
-
-std::vector<Entry*> Runner::racing() {
-  std::vector<Entry*> out;
-  for (Entry& entry : entries_)
-    if (entry.asked &&
-        (entry.option.state == OptionState::main || entry.option.state == OptionState::blind))
-      out.push_back(&entry);
-  return out;
-}
-
-/// All runs of all options are about as long.
-void Runner::plan_ladders() {
-  const std::vector<Entry*> all = racing();
-  double shares = 0;
-  for (const Entry* entry : all)
-    shares += entry->option.state == OptionState::blind ? blind_runs : main_runs;
-  const double seconds = until_main * request_.budget_seconds - clock_.seconds();
-  for (Entry* entry : all) {
-    entry->ladder = ladder_to(entry->contender->spp_in(seconds / shares));
-    if (entry->ladder.size() < LEAST_RUNGS && entry->option.state == OptionState::main) {
-      entry->option.state = OptionState::too_slow;
-      entry->option.reason =
-          fmt::format("{} of {} rungs fit the budget", entry->ladder.size(), LEAST_RUNGS);
-    }
-    entry->stacks.resize(entry->ladder.size());
   }
 }
 
@@ -254,9 +182,8 @@ void Runner::replicate_one(Entry& entry, int k) {
 
 /// Rounds in which every option has one run, in an order of their own.
 void Runner::replicate() {
-  load_ = std::make_unique<MachineLoad>();
   std::mt19937 shuffle(static_cast<unsigned>(request_.seed));
-  std::vector<Entry*> order = racing();
+  std::vector<Entry*> order = racing(entries_);
   for (int k = 0; k < main_runs; ++k) {
     std::shuffle(order.begin(), order.end(), shuffle);
     for (Entry* entry : order) {
@@ -268,7 +195,6 @@ void Runner::replicate() {
       replicate_one(*entry, k);
     }
   }
-  foreign_load_ = load_->share();
 }
 
 /// The two quickest options once more, each beside itself in other precisions.
@@ -322,7 +248,7 @@ Study Runner::gather() {
   study.seed = request_.seed;
   study.width = stage_.options.window().width, study.height = stage_.options.window().height;
   study.reference = reference_.facts;
-  study.machine.foreign_load = foreign_load_;
+  study.machine.foreign_load = load_.share();
   for (Entry& entry : entries_) {
     if (!entry.asked) continue;
     finish(entry);
@@ -365,8 +291,8 @@ Study Runner::run() {
   try {
     pilot();
     refer();
-    eliminate();
-    plan_ladders();
+    eliminate(reference_, entries_);
+    plan_ladders(until_main * request_.budget_seconds - clock_.seconds(), entries_);
     replicate();
     compare_precisions();
   } catch (const StudyStopped&) {
@@ -374,7 +300,6 @@ Study Runner::run() {
   } catch (const BudgetSpent&) {
     log_info("the budget of {} is spent", format_seconds(request_.budget_seconds));
   }
-  if (load_) foreign_load_ = load_->share();
   Study study = gather();
   study.complete = complete;
   add_pictures(reference_, entries_, study, request_.folder);
