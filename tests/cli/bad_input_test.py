@@ -25,6 +25,7 @@ BASE = {
     "info": ["room.json", *NO_DEVICE],
     "kernels": ["room.json", *NO_DEVICE],
     "bench": NO_DEVICE,
+    "study": ["room.json", *NO_DEVICE],
     "compare": ["a.exr", "a.exr"],
     "devices": [],
     "merge": ["gone.exr", "-o", "out.exr"],
@@ -33,7 +34,7 @@ BASE = {
 }
 # Odd, but right. All others of ODD are usage errors, except where a name is wanted.
 LEGAL = {"--seed": ["0"], "--time": ["0", "1e38"], "--every": ["0", "1e38"],
-         "--fail-slower": ["0"], "--exposure": ["-1", "0"]}
+         "--fail-slower": ["0"], "--budget": ["1e38"], "--exposure": ["-1", "0"]}
 NAMES = ("FILE", "DIR", "SPEC")
 # Options that `path` has no use for, with a method that has: values are refused, not their presence.
 METHOD = {"--light-paths": "sppm", "--radius": "sppm", "--radius-alpha": "bpm", "--merges": "vcm",

@@ -15,7 +15,7 @@ sys.dont_write_bytecode = True
 # pylint: disable=wrong-import-position
 from harness import PELLUCID, QUICK, SOURCE, check, document, expect, run, run_tests
 
-COMMANDS = ("render", "devices", "info", "compare", "bench", "merge", "kernels", "schema",
+COMMANDS = ("render", "devices", "info", "compare", "study", "bench", "merge", "kernels", "schema",
             "completion")
 METHODS = ("naive", "nee", "path", "reference", "light", "bdpt", "sppm", "bpm",
            "vcm")

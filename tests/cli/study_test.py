@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""study: its files, its verdicts, what it refuses, and how it ends early.
+
+Usage: study_test.py path/to/pellucid   (exit 0: all checks hold)
+"""
+import json
+import signal
+import struct
+import subprocess
+import sys
+import time
+
+sys.dont_write_bytecode = True
+# pylint: disable=wrong-import-position
+from harness import PELLUCID, check, expect, read_bytes, read_json, run_tests, write_text
+
+# Two methods without paths from lights, whose kernels are quick to build, against a file.
+SMALL = ["--size", "12x12", "--integrators", "path,nee", "--ref", "ref.exr", "--target", "5%"]
+KINDS = {"measured", "interpolated", "extrapolated", "beyond", "never", "unknown"}
+
+
+def make_reference():
+    expect(0, ["sphere-light", "-q", "--size", "12x12", "--spp", "2048", "--seed", "77", "--aov",
+               "variance", "-o", "ref.exr"])
+
+
+def test_study():
+    make_reference()
+    out, _ = expect(0, ["study", "sphere-light", *SMALL, "--precision", "strict,mad", "--budget",
+                        "40s", "--out", "here"])
+    for name in ("here/study.json", "here/table.md", "here/report.html"):
+        check(name in out, "told on stdout", name, out)
+    study = read_json("here/study.json")
+    check(study["schema"] == 1 and study["complete"], "whole", study["complete"])
+    names = [(one["integrator"], one["precision"]) for one in study["options"]]
+    check(names[:2] == [("nee", "strict"), ("path", "strict")], "options", names)
+    check(any(precision == "mad" for _, precision in names), "precisions", names)
+    for one in study["options"]:
+        check(one["kind"] in KINDS, "kind", one["kind"])
+        if one["precision"] == "strict" and one["state"] == "main":
+            check(len(one["runs"]) >= 3 and len(one["runs"][0]["rungs"]) >= 5, "runs", names)
+            check(0 < one["low"] < one["seconds_to_target"] < one["high"], "interval", one["low"])
+    best = study["options"][study["recommended"]]
+    check(f"{best['integrator']} {best['precision']} reaches 5 %" in study["recommendation"],
+          "recommendation", study["recommendation"])
+
+    before = [read_bytes("here/" + name) for name in ("table.md", "report.html")]
+    expect(0, ["study", "--report", "here/study.json", "--out", "again"])
+    after = [read_bytes("again/" + name) for name in ("table.md", "report.html")]
+    check(before == after, "reports come back byte by byte")
+
+
+def test_inconclusive():
+    make_reference()
+    out, _ = expect(1, ["study", "sphere-light", *SMALL, "--budget", "1s", "--out", "short"])
+    check("Inconclusive" in out and "--budget" in out, "says why", out)
+    check(read_json("short/study.json")["recommended"] == -1, "recommends nothing")
+
+
+def test_unreachable():
+    """`path` cannot see light that comes to a point through glass: never recommended."""
+    scene = {"version": 1, "camera": {"origin": [0, 1, 4], "target": [0, 0, 0], "fov": 40},
+             "film": {"width": 12, "height": 12},
+             "materials": {"grey": {"type": "diffuse", "reflectance": 0.5},
+                           "glass": {"type": "dielectric"}},
+             "shapes": [{"type": "sphere", "material": "glass", "center": [0, 0, 0], "radius": 0.5},
+                        {"type": "rectangle", "material": "grey", "corner": [-2, -1, -2],
+                         "edges": [[0, 0, 4], [4, 0, 0]]}],
+             "lights": [{"type": "point", "position": [0, 3, 0], "intensity": 10}]}
+    write_text("ball.json", json.dumps(scene))
+    expect(0, ["ball.json", "-q", "--spp", "256", "-i", "light", "--aov", "variance", "-o", "l.exr"])
+    expect(1, ["study", "ball.json", "--integrators", "path", "--precision", "strict", "--ref",
+               "l.exr", "--budget", "30s", "--out", "blind"])
+    study = read_json("blind/study.json")
+    one = study["options"][0]
+    check(one["kind"] == "never" and one["seconds_to_target"] is None, "never", one["kind"])
+    check(one["unreachable"] and study["recommended"] == -1, "and why", one["unreachable"])
+
+
+def test_stop():
+    make_reference()
+    with open("stop.txt", "w", encoding="utf-8") as log:
+        process = subprocess.Popen([PELLUCID, "study", "sphere-light", *SMALL, "--budget", "10m",
+                                    "--out", "stopped"], stdout=subprocess.DEVNULL, stderr=log)
+        time.sleep(8)
+        process.send_signal(signal.SIGINT)
+        code = process.wait(60)
+    check(code == 75, "stopped with 75", code)
+    study = read_json("stopped/study.json")
+    check(study["complete"] is False, "partial")
+    expect(1, ["study", "--report", "stopped/study.json", "--out", "stopped2"])
+
+
+def test_bad_input():
+    make_reference()
+    expect(2, ["study"], "SCENE", "--report")
+    expect(2, ["study", "sphere-light", "--target", "0"], "--target")
+    expect(2, ["study", "sphere-light", "--budget", "0.2s"], "--budget")
+    expect(2, ["study", "sphere-light", "--integrators", "path,neee"], "'neee'", "nee")
+    expect(2, ["study", "sphere-light", "--precision", "loose"], "'loose'")
+    expect(3, ["study", "sphere-light", "--size", "8x8", "--ref", "ref.exr", "--budget", "20s",
+               "--integrators", "path"], "12x12", "--size")
+    expect(3, ["study", "sphere-light", "--ref", "none.exr", "--budget", "20s", "--integrators",
+               "path", "--size", "12x12"], "none.exr")
+    expect(5, ["study", "sphere-light", *SMALL, "--out", "/proc/none"], "--out")
+    write_text("broken.json", '{"schema": 1, "scene": "x"}')
+    expect(3, ["study", "--report", "broken.json"], "broken.json", "scene_hash")
+    write_text("no.json", "{")
+    expect(3, ["study", "--report", "no.json"], "no.json", "JSON")
+
+
+def test_nan_reference():
+    """A PFM of 12x12 with one NaN: refused, not scrubbed."""
+    values = [0.5] * (12 * 12 * 3)
+    values[77] = float("nan")
+    with open("nan.pfm", "wb") as file:
+        file.write(b"PF\n12 12\n-1.0\n" + struct.pack(f"<{len(values)}f", *values))
+    expect(3, ["study", "sphere-light", "--size", "12x12", "--ref", "nan.pfm", "--integrators",
+               "path", "--budget", "30s"], "nan.pfm", "no numbers")
+
+
+run_tests(globals())
