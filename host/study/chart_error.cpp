@@ -38,16 +38,18 @@ struct Series {
 /// Where the drawn fit ends: at the target, or as far as one may extrapolate; 0 where the target is
 /// met by measurement, and where nobody vouches for the fit.
 double fit_end(const Series& s) {
-  if (!fitted_error(*s.option, s.verdict, s.last())) return 0;
+  double end = FIT_DRAWN * s.last();
   switch (s.verdict.kind) {
     case TargetKind::extrapolated:
-      return s.verdict.seconds > s.last() ? std::min(FIT_DRAWN * s.last(), s.verdict.seconds) : 0;
+      end = std::min(end, s.verdict.seconds);
+      break;
     case TargetKind::beyond:
     case TargetKind::never:
-      return FIT_DRAWN * s.last();
+      break;
     default:
       return 0;
   }
+  return end > s.last() && plausible(fitted_error(*s.option, s.verdict, end).value_or(0)) ? end : 0;
 }
 
 std::vector<Series> all_series(const Study& study) {
@@ -55,7 +57,7 @@ std::vector<Series> all_series(const Study& study) {
   for (std::size_t i = 0; i < study.options.size(); ++i) {
     Series s{&study.options[i], verdict_of(study, i), {}, 0, error_floor(study, i)};
     for (const ErrorPoint& p : error_curve(study.options[i]))
-      if (p.error && p.seconds > 0) s.points.push_back(p);
+      if (p.error && plausible(*p.error) && plausible(p.seconds)) s.points.push_back(p);
     if (s.points.empty()) continue;
     s.fit_to = fit_end(s);
     all.push_back(s);

@@ -16,8 +16,7 @@ namespace {
 constexpr double WIDTH = 780, LEFT = 128, RIGHT = 290, ROW = 24, TOP = 8, BOTTOM = 24;
 
 bool timed(const Verdict& v) {
-  return v.seconds > 0 && std::isfinite(v.seconds) && v.kind != TargetKind::never &&
-         v.kind != TargetKind::unknown;
+  return plausible(v.seconds) && v.kind != TargetKind::never && v.kind != TargetKind::unknown;
 }
 
 /// Ends of the interval, sound: around the value, within a factor of 1000.
