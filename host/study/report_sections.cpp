@@ -30,6 +30,7 @@ std::string root_percent(double relmse) {
 }
 
 std::string energy_text(const Verdict& v) {
+  if (v.energy_low == v.energy_high) return "-";  // was not estimated
   return fmt::format("{} [{}, {}]", digits(v.energy, 4), digits(v.energy_low, 4),
                      digits(v.energy_high, 4));
 }

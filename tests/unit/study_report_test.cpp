@@ -162,11 +162,11 @@ TEST(ReportFacts, FloorTimeIsNoiseOverBias) {
   ASSERT_TRUE(known);
   EXPECT_DOUBLE_EQ(known->seconds, 0.004 / 4e-6);
   EXPECT_FALSE(known->at_least);
-  const std::optional<FloorTime> bounded = floor_time(study, study.pairs[1]);
+  const std::optional<FloorTime> bounded = floor_time(study, study.pairs[2]);
   ASSERT_TRUE(bounded);
   EXPECT_DOUBLE_EQ(bounded->seconds, 0.041 / 3e-9);
   EXPECT_TRUE(bounded->at_least);
-  EXPECT_FALSE(floor_time(study, study.pairs[2]));  // its noise does not fall as 1 / t
+  EXPECT_FALSE(floor_time(study, study.pairs[3]));  // its noise does not fall as 1 / t
 }
 
 TEST(ReportTable, SaysEveryKindOfVerdict) {
@@ -179,16 +179,18 @@ TEST(ReportTable, SaysEveryKindOfVerdict) {
   expect("vcm strict", "| recommended ");
   expect("vcm fast", "| no different from vcm strict ");
   expect("bdpt strict", "| 21 s [19, 24] measured ");
-  expect("bdpt strict", "| throughput lost to caps 2e-4 of all ");
+  expect("bdpt strict", "| its pictures have 0.9950 of the reference's light ");
   expect("path strict", "| 410 s [370, 460] extrapolated x6.8 ");
   expect("light strict", "| >= 280 s (x32 the longest run) ");
-  expect("sppm strict", "| never (floor 1.6 %) ");
+  expect("sppm strict", "| 530 s [470, 590] extrapolated x22 ");
+  expect("bdpt compact", "| never (floor 1.6 %) ");
+  expect("bdpt compact", "| a floor of 1.6 % ");
   expect("nee strict", "| never (cannot see all paths) ");
-  expect("nee strict", "| blind: cannot sample caustics: 11 % of the energy ");
+  expect("nee strict", "| cannot see caustics: light \\| focused by <glass> & mirrors ");
   expect("naive strict", "| unknown ");
-  expect("naive strict", "| pilot only: 140 times dearer");
-  expect("reference strict", "| too slow ");
-  expect("bpm strict", "| refused: 3 pixels are not numbers; 3 wrong values counted ");
+  expect("naive strict", "| pilot only: about 140 times dearer than bdpt ");
+  expect("reference strict", "| too slow: 2 of 5 rungs fit the budget ");
+  expect("bpm strict", "| refused: its pictures hold pixels that are no numbers ");
 }
 
 TEST(ReportTable, RowsAndColumns) {
@@ -210,8 +212,8 @@ TEST(ReportTable, RowsAndColumns) {
 
 TEST(ReportTable, TheRecommendedOptionComesFirst) {
   Study study = test::sample_study();
-  study.recommended = 3, study.equals = {2};
-  EXPECT_EQ(ranked(study)[0], 3u);
+  study.recommended = 4, study.equals = {2};
+  EXPECT_EQ(ranked(study)[0], 4u);
   EXPECT_EQ(ranked(study)[1], 2u);
 }
 
@@ -222,8 +224,8 @@ TEST(StudyDocument, RoundTrip) {
   EXPECT_EQ(study_document(again).dump(2), text);
   EXPECT_EQ(study_html(again), study_html(study));
   EXPECT_EQ(study_table(again), study_table(study));
-  EXPECT_EQ(again.verdicts[3].kind, TargetKind::extrapolated);
-  EXPECT_EQ(again.options[6].state, OptionState::blind);
+  EXPECT_EQ(again.verdicts[4].kind, TargetKind::extrapolated);
+  EXPECT_EQ(again.options[7].state, OptionState::blind);
 }
 
 TEST(StudyDocument, ReadErrorsNameFileAndKey) {
@@ -269,24 +271,25 @@ TEST(ReportHtml, IsSoundAndComplete) {
         "glass caustic &lt;of a ring&gt; &amp; &quot;more&quot;", "class=\"target\""})
     EXPECT_GT(count(page, part), 0u) << part;
   // A picture and an error map of all that ran, and the reference.
-  EXPECT_EQ(count(page, "<img "), 2 * (study.options.size() - 1) + 1);
-  EXPECT_EQ(count(page, "<details>"), study.options.size() - 1);
+  const std::size_t ran = 8;
+  EXPECT_EQ(count(page, "<img "), 2 * ran + 1);
+  EXPECT_EQ(count(page, "<details>"), ran);
   std::size_t rungs = 0;
   for (const StudyOption& option : study.options)
     for (const StudyRun& run : option.runs) rungs += run.rungs.size();
-  EXPECT_EQ(count(page, "<tr"), rungs + (study.options.size() - 1)  // every run
-                                    + 1 + study.options.size()      // options
-                                    + 1 + study.pairs.size()        // precisions
-                                    + 1 + 9                         // methods
-                                    + 1 + study.options.size());    // counters
+  EXPECT_EQ(count(page, "<tr"), rungs + ran                       // every run
+                                    + 1 + study.options.size()    // options
+                                    + 1 + study.pairs.size()      // precisions
+                                    + 1 + 9                       // methods
+                                    + 1 + study.options.size());  // counters
 }
 
 TEST(ReportHtml, DrawsSolidDashedAndDotted) {
   const std::string page = study_html(test::sample_study());
-  EXPECT_EQ(count(page, "class=\"curve m-"), 8u);  // nine that ran, one of them with one rung
-  EXPECT_EQ(count(page, "class=\"fit m-"), 4u);    // extrapolated, beyond, two that never arrive
-  EXPECT_EQ(count(page, "class=\"floor m-"), 3u);
-  EXPECT_EQ(count(page, "class=\"band m-"), 7u);  // not from one run, nor of one rung
+  EXPECT_EQ(count(page, "class=\"curve m-"), 7u);  // eight that ran, one of them for one rung
+  EXPECT_EQ(count(page, "class=\"fit m-"), 4u);    // two extrapolated, one beyond, one never
+  EXPECT_EQ(count(page, "class=\"floor m-"), 3u);  // two precisions, one blind method
+  EXPECT_EQ(count(page, "class=\"band m-"), 6u);   // not from one run, nor of one rung
 }
 
 TEST(ReportHtml, AnEmptyStudyIsAPageToo) {
