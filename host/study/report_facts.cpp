@@ -246,8 +246,9 @@ std::string machine_line(const StudyMachine& m) {
 }
 
 std::string settings_line(const Study& s) {
-  std::string line = fmt::format("{} x {} pixels", s.width, s.height);
-  if (!s.settings.empty()) line += ", " + s.settings;
+  // Those of a render begin with the size.
+  std::string line =
+      s.settings.empty() ? fmt::format("{} x {} pixels", s.width, s.height) : s.settings;
   line += fmt::format("; target {}, budget {}, taken {}, seed {}", percent(s.target, 1),
                       duration(s.budget_seconds), duration(s.seconds), s.seed);
   if (!s.scene_hash.empty()) line += ", scene " + s.scene_hash;

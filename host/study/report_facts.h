@@ -65,7 +65,7 @@ const char* state_text(OptionState state);  ///< "too slow"; "" for `main`
 /// Sentences about what errors were measured against.
 std::vector<std::string> reference_lines(const StudyReference& reference);
 std::string machine_line(const StudyMachine& machine);
-/// "640 x 480 pixels, target 1 %, budget 10 min, ..."
+/// "640x480 max-depth 5 ...; target 1 %, budget 10 min, ..."
 std::string settings_line(const Study& study);
 
 }  // namespace pellucid

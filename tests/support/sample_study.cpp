@@ -121,7 +121,8 @@ void add_options(Study& s) {
 Study sample_study() {
   Study s;
   s.scene = "glass caustic <of a ring> & \"more\"", s.scene_hash = "9f3a77c21be04d11";
-  s.settings = "filter box, sampler sobol", s.width = 640, s.height = 480;
+  s.settings = "640x480 max-depth unlimited mis balance filter box sampler sobol", s.width = 640,
+  s.height = 480;
   s.seconds = 583.2, s.seed = 1, s.complete = false;
   s.warnings = {"repeats differ by 14 %: the machine was disturbed"};
   s.machine = {"pthread-skylake-avx512", "PoCL 3.1", "OpenCL 1.2", "cpu", 2, 0.023};
