@@ -99,12 +99,19 @@ const PrecisionPair* pair_of(const Study& study, const StudyOption& option) {
 std::optional<double> error_floor(const Study& study, std::size_t i) {
   const StudyOption& option = study.options[i];
   double bias2 = 0;
-  // What methods that merge are off by shrinks with their radius.
-  if (!option.merges && !option.splits.empty())
+  // Where it forbids the target: one of many unbiased options seems to have one by chance, and what
+  // methods that merge are off by shrinks with their radius.
+  const bool never = verdict_of(study, i).kind == TargetKind::never;
+  if (never && !option.merges && !option.splits.empty())
     bias2 = certain(option.splits.back().bias2, option.splits.back().bias2_upper90);
   if (const PrecisionPair* pair = pair_of(study, option))
     bias2 = std::max(bias2, certain(pair->bias2, pair->bias2_upper90));
   return bias2 > 0 ? std::optional(std::sqrt(bias2)) : std::nullopt;
+}
+
+std::string pair_bias_text(const PrecisionPair& pair) {
+  const double bias2 = certain(pair.bias2, pair.bias2_upper90);
+  return bias2 > 0 ? percent(std::sqrt(bias2)) : "none seen";
 }
 
 std::optional<FloorTime> floor_time(const Study& study, const PrecisionPair& pair) {

@@ -35,6 +35,9 @@ const PrecisionPair* pair_of(const Study& study, const StudyOption& option);
 /// sqrt(relMSE) that no time takes away from an option, where there certainly is one.
 std::optional<double> error_floor(const Study& study, std::size_t option);
 
+/// sqrt of a pair's squared bias in words; "none seen" where it is not there for certain.
+std::string pair_bias_text(const PrecisionPair& pair);
+
 /// When the noise of the strict option meets a precision's bias (accuracy.md 7): harmless before.
 struct FloorTime {
   double seconds = 0;
