@@ -169,6 +169,18 @@ TEST(ReportFacts, FloorTimeIsNoiseOverBias) {
   EXPECT_FALSE(floor_time(study, study.pairs[3]));  // its noise does not fall as 1 / t
 }
 
+TEST(ReportFacts, OnlyWhatForbidsTheTargetIsAFloor) {
+  Study study = test::sample_study();
+  study.options[0].splits.back() = {512, 1e-4, 2e-5, 2.1e-5};
+  EXPECT_FALSE(error_floor(study, 0));  // one of ten unbiased options looks so by chance
+  study.verdicts[0].kind = TargetKind::never;
+  ASSERT_TRUE(error_floor(study, 0));
+  EXPECT_DOUBLE_EQ(*error_floor(study, 0), std::sqrt(2e-5));
+  EXPECT_DOUBLE_EQ(*error_floor(study, 1), std::sqrt(4e-6));  // of its arithmetic
+  EXPECT_EQ(pair_bias_text(study.pairs[0]), "0.20 %");
+  EXPECT_EQ(pair_bias_text(study.pairs[3]), "none seen");
+}
+
 TEST(ReportTable, SaysEveryKindOfVerdict) {
   const std::string table = study_table(test::sample_study());
   const auto expect = [&](const char* option, const char* words) {
