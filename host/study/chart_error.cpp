@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/analyse.h"
 #include "study/report_charts.h"
 #include "study/report_facts.h"
 #include "study/report_style.h"
@@ -13,49 +14,64 @@
 namespace pellucid {
 namespace {
 
-/// Farthest that fits are drawn beyond the longest run.
-constexpr double FIT_DRAWN = 32;
 constexpr double WIDTH = 780, LEFT = 58, RIGHT = 170, TOP = 12, BOTTOM = 64;
 constexpr double LABEL_GAP = 17, LINE_NAME_GAP = 14;
+
+std::string classes_of(const StudyOption& option) {
+  return method_class(option.integrator) + (option.precision == "strict" ? "" : " relaxed");
+}
+
+struct Floor {
+  const StudyOption* option;
+  double error;
+};
+
+/// Also of options that were only measured in pairs and have no curve.
+std::vector<Floor> all_floors(const Study& study) {
+  std::vector<Floor> all;
+  for (std::size_t i = 0; i < study.options.size(); ++i)
+    if (const std::optional<double> floor = error_floor(study, i))
+      all.push_back({&study.options[i], *floor});
+  return all;
+}
 
 struct Series {
   const StudyOption* option;
   Verdict verdict;
   std::vector<ErrorPoint> points;  ///< those with an error
   double fit_to = 0;               ///< seconds; 0: no fit is drawn
-  std::optional<double> floor;
 
   double last() const { return points.back().seconds; }
   double end_seconds() const { return std::max(last(), fit_to); }
   double end_error() const {
     return fit_to > 0 ? *fitted_error(*option, verdict, fit_to) : *points.back().error;
   }
-  std::string classes() const {
-    return method_class(option->integrator) + (option->precision == "strict" ? "" : " relaxed");
-  }
+  std::string classes() const { return classes_of(*option); }
 };
 
 /// Where the drawn fit ends: at the target, or as far as one may extrapolate; 0 where the target is
 /// met by measurement, and where nobody vouches for the fit.
 double fit_end(const Series& s) {
-  if (!fitted_error(*s.option, s.verdict, s.last())) return 0;
+  double end = EXTRAPOLATION_MOST * s.last();
   switch (s.verdict.kind) {
     case TargetKind::extrapolated:
-      return s.verdict.seconds > s.last() ? std::min(FIT_DRAWN * s.last(), s.verdict.seconds) : 0;
+      end = std::min(end, s.verdict.seconds);
+      break;
     case TargetKind::beyond:
     case TargetKind::never:
-      return FIT_DRAWN * s.last();
+      break;
     default:
       return 0;
   }
+  return end > s.last() && plausible(fitted_error(*s.option, s.verdict, end).value_or(0)) ? end : 0;
 }
 
 std::vector<Series> all_series(const Study& study) {
   std::vector<Series> all;
   for (std::size_t i = 0; i < study.options.size(); ++i) {
-    Series s{&study.options[i], verdict_of(study, i), {}, 0, error_floor(study, i)};
+    Series s{&study.options[i], verdict_of(study, i), {}, 0};
     for (const ErrorPoint& p : error_curve(study.options[i]))
-      if (p.error && p.seconds > 0) s.points.push_back(p);
+      if (p.error && plausible(*p.error) && plausible(p.seconds)) s.points.push_back(p);
     if (s.points.empty()) continue;
     s.fit_to = fit_end(s);
     all.push_back(s);
@@ -77,8 +93,9 @@ Chart empty_chart(const Study& study, const std::vector<Series>& all) {
     for (const ErrorPoint& p : s.points)
       low_y = std::min(low_y, *p.error), high_y = std::max(high_y, *p.error);
   }
-  for (const Series& s : all)  // floors far below would press the curves together
-    if (s.floor && *s.floor > low_y / 5) low_y = std::min(low_y, *s.floor);
+  const double lowest = low_y / 5;  // farther down, floors would press the curves together
+  for (const Floor& floor : all_floors(study))
+    if (floor.error > lowest) low_y = std::min(low_y, floor.error);
   const double height = std::max(430.0, TOP + BOTTOM + LABEL_GAP * double(all.size()));
   return {Svg(WIDTH, height, "Error over seconds, both on logarithmic scales, by option"),
           {low_x / 1.25, high_x * 1.25, LEFT, WIDTH - RIGHT},
@@ -118,8 +135,6 @@ void draw_curve(Chart& c, const Series& s) {
     if (const std::optional<double> error = fitted_error(*s.option, s.verdict, t))
       fit.push_back(c.at(t, *error));
   }
-  if (s.floor && c.y.holds(*s.floor))
-    c.svg.line({c.x.start, c.y.at(*s.floor)}, {c.x.end, c.y.at(*s.floor)}, "floor " + s.classes());
   c.svg.path(fit, "fit " + s.classes());
   c.svg.path(curve, "curve " + s.classes());
   for (const ErrorPoint& p : s.points) {
@@ -148,21 +163,26 @@ void draw_labels(Chart& c, const std::vector<Series>& all) {
   }
 }
 
-/// The target's and the floors' names, at the left just above their lines.
-void draw_line_names(Chart& c, const std::vector<Series>& all, double target) {
+/// The floors, and at the left the names of target and floors, just above their lines.
+void draw_floors(Chart& c, const Study& study) {
   std::vector<double> heights;
   std::vector<std::string> names;
   const auto name_line = [&](double error, const std::string& name) {
     if (!c.y.holds(error)) return;
     heights.push_back(c.y.at(error) - 8);
-    names.push_back(fmt::format("{} {}", name, percent(error, names.empty() ? 1 : 2)));
+    names.push_back(fmt::format("{} {}", name, percent(error, error == study.target ? 1 : 2)));
   };
-  name_line(target, "target");
-  for (const Series& s : all)
-    if (s.floor) name_line(*s.floor, "floor of " + s.option->name());
+  name_line(study.target, "target");
+  for (const Floor& floor : all_floors(study)) {
+    name_line(floor.error, "floor of " + floor.option->name());
+    if (c.y.holds(floor.error))
+      c.svg.line({c.x.start, c.y.at(floor.error)}, {c.x.end, c.y.at(floor.error)},
+                 "floor " + classes_of(*floor.option));
+  }
   heights = spread(heights, LINE_NAME_GAP, c.y.end, c.y.start - 8);
   for (std::size_t k = 0; k < names.size(); ++k)
-    c.svg.text({c.x.start + 6, heights[k]}, names[k], k == 0 ? "strong halo" : "soft small halo");
+    c.svg.text({c.x.start + 6, heights[k]}, names[k],
+               names[k].rfind("target", 0) == 0 ? "strong halo" : "soft small halo");
 }
 
 /// What the kinds of lines mean, below the axis.
@@ -194,7 +214,7 @@ std::string error_chart(const Study& study) {
   for (const Series& s : all) draw_band(c, s);
   for (const Series& s : all) draw_curve(c, s);
   c.svg.end_clip();
-  draw_line_names(c, all, study.target);
+  draw_floors(c, study);
   draw_labels(c, all);
   draw_key(c);
   return c.svg.markup();

@@ -16,8 +16,7 @@ namespace {
 constexpr double WIDTH = 780, LEFT = 128, RIGHT = 290, ROW = 24, TOP = 8, BOTTOM = 24;
 
 bool timed(const Verdict& v) {
-  return v.seconds > 0 && std::isfinite(v.seconds) && v.kind != TargetKind::never &&
-         v.kind != TargetKind::unknown;
+  return plausible(v.seconds) && v.kind != TargetKind::never && v.kind != TargetKind::unknown;
 }
 
 /// Ends of the interval, sound: around the value, within a factor of 1000.
@@ -60,7 +59,8 @@ std::string target_chart(const Study& study) {
   const std::vector<std::size_t> order = ranked(study);
   const double bottom = TOP + ROW * double(order.size());
   Svg svg(WIDTH, bottom + BOTTOM, "Seconds to the target with 90 % intervals, by option");
-  const LogAxis axis{low / 1.5, high * 1.5, LEFT, WIDTH - RIGHT};
+  const double margin = std::max(1.5, std::sqrt(10 * low / high));  // a decade at least
+  const LogAxis axis{low / margin, high * margin, LEFT, WIDTH - RIGHT};
   for (const AxisTick& tick : axis.time_ticks()) {
     svg.line({axis.at(tick.value), TOP}, {axis.at(tick.value), bottom}, "grid");
     svg.text({axis.at(tick.value), bottom + 12}, tick.label, "soft mid");

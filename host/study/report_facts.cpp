@@ -38,6 +38,12 @@ ErrorPoint error_point(std::uint64_t spp, const std::vector<const Rung*>& rungs)
   return point;
 }
 
+/// A squared bias if it is there for certain: by its bound, which lies as far above it as another
+/// one lies below. Else 0.
+double certain(double bias2, double upper) {
+  return 2 * bias2 - upper > 0 && std::isfinite(bias2) ? bias2 : 0;
+}
+
 /// One of those that the recommended option does not beat.
 bool is_equal(const Study& study, std::size_t i) {
   return std::count(study.equals.begin(), study.equals.end(), int(i)) > 0;
@@ -92,21 +98,30 @@ const PrecisionPair* pair_of(const Study& study, const StudyOption& option) {
 
 std::optional<double> error_floor(const Study& study, std::size_t i) {
   const StudyOption& option = study.options[i];
-  const Verdict verdict = verdict_of(study, i);
-  // A bias that does not shrink: of the fit, where the radius does not, and of the arithmetic.
-  double bias2 = option.radius_alpha >= 1 ? verdict.bias : 0;
-  if (const PrecisionPair* pair = pair_of(study, option)) bias2 = std::max(bias2, pair->bias2);
-  return bias2 > 0 && std::isfinite(bias2) ? std::optional(std::sqrt(bias2)) : std::nullopt;
+  double bias2 = 0;
+  // Where it forbids the target: one of many unbiased options seems to have one by chance, and what
+  // methods that merge are off by shrinks with their radius.
+  const bool never = verdict_of(study, i).kind == TargetKind::never;
+  if (never && !option.merges && !option.splits.empty())
+    bias2 = certain(option.splits.back().bias2, option.splits.back().bias2_upper90);
+  if (const PrecisionPair* pair = pair_of(study, option))
+    bias2 = std::max(bias2, certain(pair->bias2, pair->bias2_upper90));
+  return bias2 > 0 ? std::optional(std::sqrt(bias2)) : std::nullopt;
+}
+
+std::string pair_bias_text(const PrecisionPair& pair) {
+  const double bias2 = certain(pair.bias2, pair.bias2_upper90);
+  return bias2 > 0 ? percent(std::sqrt(bias2)) : "none seen";
 }
 
 std::optional<FloorTime> floor_time(const Study& study, const PrecisionPair& pair) {
-  const bool known = pair.bias2 > 0;
-  const double bias2 = known ? pair.bias2 : pair.bias2_upper90;
+  const double sure = certain(pair.bias2, pair.bias2_upper90);
+  const double bias2 = sure > 0 ? sure : pair.bias2_upper90;
   for (std::size_t i = 0; i < study.options.size(); ++i) {
     const Verdict v = verdict_of(study, i);
     if (study.options[i].name() == pair.integrator + " strict" && v.exponent == 1 && v.noise > 0 &&
         bias2 > 0)
-      return FloorTime{v.noise / bias2, !known};
+      return FloorTime{v.noise / bias2, !(sure > 0)};
   }
   return std::nullopt;
 }
@@ -179,8 +194,6 @@ std::vector<std::string> flags_of(const Study& study, std::size_t i) {
     flags.push_back("cannot see " + join(option.unreachable));
   else if (option.reason.empty() && !state.empty() && flags.empty())
     flags.push_back(state);
-  if (option.wrong > 0 && !told("wrong"))
-    flags.push_back(fmt::format("{} wrong values counted", option.wrong));
   return flags;
 }
 
@@ -240,8 +253,9 @@ std::string machine_line(const StudyMachine& m) {
 }
 
 std::string settings_line(const Study& s) {
-  std::string line = fmt::format("{} x {} pixels", s.width, s.height);
-  if (!s.settings.empty()) line += ", " + s.settings;
+  // Those of a render begin with the size.
+  std::string line =
+      s.settings.empty() ? fmt::format("{} x {} pixels", s.width, s.height) : s.settings;
   line += fmt::format("; target {}, budget {}, taken {}, seed {}", percent(s.target, 1),
                       duration(s.budget_seconds), duration(s.seconds), s.seed);
   if (!s.scene_hash.empty()) line += ", scene " + s.scene_hash;

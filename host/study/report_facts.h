@@ -32,8 +32,11 @@ std::optional<double> fitted_error(const StudyOption& option, const Verdict& ver
 /// The paired comparison of an option with strict arithmetic, if there was one.
 const PrecisionPair* pair_of(const Study& study, const StudyOption& option);
 
-/// sqrt(relMSE) that no time takes away from an option, as far as it is known.
+/// sqrt(relMSE) that no time takes away from an option, where there certainly is one.
 std::optional<double> error_floor(const Study& study, std::size_t option);
+
+/// sqrt of a pair's squared bias in words; "none seen" where it is not there for certain.
+std::string pair_bias_text(const PrecisionPair& pair);
 
 /// When the noise of the strict option meets a precision's bias (accuracy.md 7): harmless before.
 struct FloorTime {
@@ -54,7 +57,7 @@ std::string slope_text(const Verdict& verdict);
 /// "<= 0.12 %" without the sign: the upper 90 % bound at the last rung, or "-".
 std::string bias_text(const StudyOption& option);
 
-/// Why it is not to be recommended: red flags, its state with the reason, errors counted.
+/// Why it is not to be recommended: red flags, and its state with the reason.
 std::vector<std::string> flags_of(const Study& study, std::size_t option);
 
 /// "recommended", "no different from ...", or "".
@@ -65,7 +68,7 @@ const char* state_text(OptionState state);  ///< "too slow"; "" for `main`
 /// Sentences about what errors were measured against.
 std::vector<std::string> reference_lines(const StudyReference& reference);
 std::string machine_line(const StudyMachine& machine);
-/// "640 x 480 pixels, target 1 %, budget 10 min, ..."
+/// "640x480 max-depth 5 ...; target 1 %, budget 10 min, ..."
 std::string settings_line(const Study& study);
 
 }  // namespace pellucid

@@ -116,7 +116,10 @@ std::string body(const Study& study) {
               "The same seeds in relaxed and in strict arithmetic: noise cancels, bias remains. "
               "t* is where strict noise has come down to that bias.");
   text += section("Pictures", picture_section(study),
-                  "One run of each option at its last rung, and below it the map of its error.");
+                  "One run of each option at its last rung, and below it the map of its error, the "
+                  "root of each pixel's relMSE "
+                  "on a logarithmic scale: 0.1 % and less black, 1 % blue, 10 % red, 100 % yellow, "
+                  "1000 % white.");
   text += section("What methods cannot see", reachability_section(study));
   text += section("Counters, memory, fits", counters(study));
   text += section("Every run", run_section(study));

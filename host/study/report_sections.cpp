@@ -30,6 +30,7 @@ std::string root_percent(double relmse) {
 }
 
 std::string energy_text(const Verdict& v) {
+  if (v.energy_low == v.energy_high) return "-";  // was not estimated
   return fmt::format("{} [{}, {}]", digits(v.energy, 4), digits(v.energy_low, 4),
                      digits(v.energy_high, 4));
 }
@@ -118,10 +119,9 @@ std::string precision_section(const Study& study) {
   for (const PrecisionPair& pair : study.pairs) {
     const std::optional<FloorTime> floor = floor_time(study, pair);
     table.rows.push_back(
-        {name_cell(pair.integrator, pair.precision),
-         pair.bias2 > 0 ? root_percent(pair.bias2) : "none seen", root_percent(pair.bias2_upper90),
-         digits(pair.divergent_per_million, 3), digits(pair.time_ratio, 3),
-         digits(pair.time_low, 3) + ", " + digits(pair.time_high, 3),
+        {name_cell(pair.integrator, pair.precision), pair_bias_text(pair),
+         root_percent(pair.bias2_upper90), digits(pair.divergent_per_million, 3),
+         digits(pair.time_ratio, 3), digits(pair.time_low, 3) + ", " + digits(pair.time_high, 3),
          floor ? (floor->at_least ? "\u2265 " : "") + duration(floor->seconds) : "-",
          std::to_string(pair.spp)});
   }

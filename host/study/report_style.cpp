@@ -98,7 +98,8 @@ svg .halo{paint-order:stroke;stroke:var(--ground);stroke-width:4px;stroke-linejo
 .whisker{stroke:var(--ink);stroke-width:1.4}
 .multiples{display:grid;grid-template-columns:repeat(auto-fill,minmax(210px,1fr));gap:12px 28px}
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(230px,1fr));gap:18px 16px}
-.pictures img{display:block;width:100%;height:auto;margin-bottom:4px;background:var(--panel)}
+.pictures img{display:block;width:100%;height:auto;margin-bottom:4px;background:var(--panel);
+image-rendering:pixelated}
 .bad{opacity:.5}
 details{margin:6px 0}
 summary{cursor:pointer;padding:3px 0}

@@ -80,8 +80,7 @@ std::string pair_table(const Study& study) {
                          "time / strict [least, largest]", "harmless until t*"}};
   for (const PrecisionPair& pair : study.pairs) {
     const std::optional<FloorTime> floor = floor_time(study, pair);
-    rows.push_back({pair.integrator + " " + pair.precision,
-                    pair.bias2 > 0 ? percent(std::sqrt(pair.bias2)) : "0",
+    rows.push_back({pair.integrator + " " + pair.precision, pair_bias_text(pair),
                     pair.bias2_upper90 > 0 ? percent(std::sqrt(pair.bias2_upper90)) : "-",
                     digits(pair.divergent_per_million, 3),
                     fmt::format("{} [{}, {}]", digits(pair.time_ratio, 3), digits(pair.time_low, 3),

@@ -146,7 +146,9 @@ std::vector<AxisTick> LogAxis::time_ticks() const {
 std::vector<AxisTick> LogAxis::percent_ticks() const {
   std::vector<AxisTick> ticks;
   const bool fine = high / low < 300;
-  for (int e = int(std::floor(std::log10(low))); e <= int(std::ceil(std::log10(high))); ++e)
+  const int first = int(std::floor(std::log10(low))), last = int(std::ceil(std::log10(high)));
+  const int step = 1 + (last - first) / 8;
+  for (int e = first; e <= last; e += step)
     for (int m : {1, 2, 5}) {
       const double value = m * std::pow(10.0, e);
       if (holds(value) && (m == 1 || fine)) ticks.push_back({value, percent(value, 1)});

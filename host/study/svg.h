@@ -55,6 +55,11 @@ struct LogAxis {
   std::vector<AxisTick> percent_ticks() const;  ///< decades; 1, 2, 5 over short ranges
 };
 
+/// Whether a chart can show such seconds or such an error: beyond lie mistakes alone.
+inline bool plausible(double value) {
+  return value >= 1e-9 && value <= 1e12;
+}
+
 /// Heights of labels, each as near to its own as may be, at least `gap` apart and within the range
 /// (if that holds them all).
 std::vector<double> spread(std::vector<double> wanted, double gap, double low, double high);
