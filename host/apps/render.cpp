@@ -130,6 +130,7 @@ void RenderJob::write_pictures_of(const Film& film) {
   image.metadata = lasting_evidence(facts_);
   add_progress(film, facts_.film, facts_.session->counters(), facts_.seconds.render,
                image.metadata);
+  if (facts_.session->error()) add_error(film, *facts_.session->error(), image.metadata);
   if (flags_.deterministic) make_deterministic(image.metadata);
   write_pictures(names_, image, flags_.display.transform());
 }
@@ -220,8 +221,12 @@ ExitCode RenderJob::finish(bool complete) {
   if (!counters.empty()) log_warn("device counters: {}", counters);
   if (!complete) log_warn("stopped early; what was rendered is written");
   // No warning: nothing went wrong, and --strict takes none. It stays in the picture's evidence.
-  for (const std::string& blind : blind_spots(*f.integrator, f.optics(), integrators()))
-    log_info("{}", blind);
+  for (const std::string& unseen :
+       f.options.error ? error_unknown(f) : blind_spots(*f.integrator, f.optics(), integrators()))
+    log_info("{}", unseen);
+  const bool missed = f.session->error() && !f.session->error()->reached();
+  if (missed && complete) log_error("--error: {}", error_verdict(*f.session->error()));
+  if (f.session->error() && !(missed && complete)) log_info("{}", error_verdict(*f.session->error()));
   nlohmann::json document = render_stats(f);
   document["outputs"] = flags_.results(names_);
   document["complete"] = complete;
@@ -231,7 +236,8 @@ ExitCode RenderJob::finish(bool complete) {
     for (const std::string& name : flags_.results(names_)) print_result(name + "\n");
   if (flags_.strict && error_count(f.session->counters()) > 0)
     throw NumericError("--strict: " + counters);
-  return complete ? ExitCode::done : ExitCode::stopped;
+  if (!complete) return ExitCode::stopped;
+  return missed ? ExitCode::gate_failed : ExitCode::done;
 }
 
 ExitCode RenderJob::run() {
