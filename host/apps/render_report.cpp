@@ -87,6 +87,7 @@ nlohmann::json error_report(const RenderFacts& f) {
   for (const ErrorLook& look : error->looks())
     looks.push_back({{"spp", look.passes},
                      {"relmse", look.relmse},
+                     {"relmse_expected", look.expected},
                      {"relmse_upper", look.upper},
                      {"groups", look.groups},
                      {"spread", look.spread},
@@ -195,8 +196,9 @@ std::string error_verdict(const ErrorEstimate& error) {
   std::string known = "its passes are too few to say more";
   if (!error.looks().empty() && std::isfinite(error.looks().back().upper)) {
     const ErrorLook& look = error.looks().back();
-    known = fmt::format("with {:g} % confidence it is below {} (expected: {})",
-                        100 * ErrorEstimate::confidence, percent(look.upper), percent(look.relmse));
+    known =
+        fmt::format("with {:g} % confidence it is below {} (expected: {})",
+                    100 * ErrorEstimate::confidence, percent(look.upper), percent(look.expected));
   } else if (!error.looks().empty()) {
     known = "the picture is black so far, which says nothing";
   }

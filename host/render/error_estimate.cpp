@@ -31,6 +31,7 @@
 
 #include "base/error.h"
 #include "base/statistics.h"
+#include "render/sampler.h"
 
 namespace pellucid {
 namespace {
@@ -40,13 +41,6 @@ constexpr std::size_t least_groups = 4, most_groups = 16;
 /// so many.
 constexpr std::size_t most_kept = std::size_t{1} << 20;
 
-/// lowbias32 of hash functions found by search [Wellons18]; any other would do.
-std::uint32_t mixed(std::uint32_t x) {
-  x = (x ^ (x >> 16)) * 0x7feb352du;
-  x = (x ^ (x >> 15)) * 0x846ca68bu;
-  return x ^ (x >> 16);
-}
-
 /// All pixels, or one in each cell of k x k, at random so that no pattern of the picture aligns.
 std::vector<std::size_t> kept_pixels(const Window& window) {
   const auto cells = [](int size, int k) { return std::size_t((size + k - 1) / k); };
@@ -55,9 +49,9 @@ std::vector<std::size_t> kept_pixels(const Window& window) {
   std::vector<std::size_t> kept;
   for (int y = 0; y < window.height; y += k)
     for (int x = 0; x < window.width; x += k) {
-      const std::uint32_t hash = mixed(std::uint32_t(y) * 0x10001u + std::uint32_t(x));
-      const int dx = int((hash & 0xffffu) % std::uint32_t(std::min(k, window.width - x)));
-      const int dy = int((hash >> 16) % std::uint32_t(std::min(k, window.height - y)));
+      const uint hash = hash_seed(std::uint64_t(y) << 32 | std::uint64_t(x));
+      const int dx = int((hash & 0xffffu) % uint(std::min(k, window.width - x)));
+      const int dy = int((hash >> 16) % uint(std::min(k, window.height - y)));
       kept.push_back(std::size_t(y + dy) * std::size_t(window.width) + std::size_t(x + dx));
     }
   return kept;
@@ -174,22 +168,22 @@ void ErrorEstimate::look(const Film& film) {
   ErrorLook now;
   now.passes = film.passes.count();
   now.groups = groups_.size();
-  now.relmse = film_says.relmse;
+  now.relmse = now.expected = film_says.relmse;
   now.upper = std::numeric_limits<double>::infinity();
   if (film_says.mean > 0 && std::isfinite(film_says.relmse)) {
     const double pixels = double(kept_.size());
     const Deviations d = deviations(groups_, epsilon);
     // A group's deviation from the others has n / (n - 1) times its variance.
     const double of_group = d.sum / (3 * n * pixels) * (n - 1) / n;
-    now.relmse = std::max(now.relmse, of_group * double(size_) / double(now.passes));
+    now.expected = std::max(now.relmse, of_group * double(size_) / double(now.passes));
     now.effective = d.sum > 0 ? d.sum * d.sum / d.square : 0;
     const double if_independent = d.sum > 0 ? (n * pixels / now.effective - 1) / pixels : 0;
     const double spread2 = std::max(relative_variance(d.of_group), if_independent);
     now.spread = std::sqrt(spread2);
     const double k = double(looks_.size() + 1);
     const double alpha = (1 - confidence) / (k * (k + 1));
-    const double t = student_quantile(1 - alpha, n - 1);
-    now.upper = now.relmse * std::exp(t * std::sqrt(std::log1p(spread2) * (1 + 1 / n)));
+#include "base/statistics.h"
+#include "render/sampler.h"
   }
   looks_.push_back(now);
 }

@@ -13,7 +13,8 @@ namespace pellucid {
 /// What was known at one look at the film.
 struct ErrorLook {
   std::uint64_t passes = 0;  ///< of the film
-  double relmse = 0;         ///< as expected of such films
+  double relmse = 0;         ///< as the film's own variances have it
+  double expected = 0;       ///< that, or what groups say of each other if it is more
   double upper = 0;          ///< that of this film is less; infinite where nothing can be said
   std::size_t groups = 0;    ///< of passes, whose spread told so
   double spread = 0;         ///< relative standard deviation of a film's relMSE
