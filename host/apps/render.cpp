@@ -114,6 +114,7 @@ std::optional<Film> RenderJob::resumed_film() {
         fmt::format("checkpoint '{}' (the one) is not of this render (the other): {}; repeat its "
                     "options, or name another file with --checkpoint",
                     flags_.checkpoint, what));
+  facts_.options.known_error = known_error(earlier_->facts.evidence);
   const PassSet& done = earlier_->film.passes;
   const auto& wanted = facts_.options.passes;
   log_info("going on with '{}', which has passes {}{}", flags_.checkpoint, done.text(),
@@ -136,9 +137,11 @@ void RenderJob::write_pictures_of(const Film& film) {
 }
 
 void RenderJob::write_checkpoint_of(const Film& film) {
-  write_checkpoint(flags_.checkpoint, film,
-                   {identity(facts_), lasting_evidence(facts_), facts_.session->counters(),
-                    facts_.seconds.render, aovs_});
+  Evidence evidence = lasting_evidence(facts_);
+  if (facts_.session->error()) add_error(film, *facts_.session->error(), evidence);
+  write_checkpoint(
+      flags_.checkpoint, film,
+      {identity(facts_), evidence, facts_.session->counters(), facts_.seconds.render, aovs_});
 }
 
 /// Writes the checkpoint and, if wanted, the pictures; if one fails, the others are still written.
@@ -225,8 +228,13 @@ ExitCode RenderJob::finish(bool complete) {
        f.options.error ? error_unknown(f) : blind_spots(*f.integrator, f.optics(), integrators()))
     log_info("{}", unseen);
   const bool missed = f.session->error() && !f.session->error()->reached();
-  if (missed && complete) log_error("--error: {}", error_verdict(*f.session->error()));
-  if (f.session->error() && !(missed && complete)) log_info("{}", error_verdict(*f.session->error()));
+  if (f.session->error()) {
+    const std::string verdict = error_verdict(*f.session->error());
+    if (missed && complete)
+      log_error("--error: {}", verdict);
+    else
+      log_info("{}", verdict);
+  }
   nlohmann::json document = render_stats(f);
   document["outputs"] = flags_.results(names_);
   document["complete"] = complete;

@@ -168,6 +168,12 @@ std::map<std::string, std::string> identity(const RenderFacts& f) {
   return all;
 }
 
+std::optional<double> known_error(const Evidence& evidence) {
+  const auto found = evidence.find("pellucid:relmseUpper");
+  const float* upper = found == evidence.end() ? nullptr : std::get_if<float>(&found->second);
+  return upper ? std::optional<double>(std::sqrt(double(*upper))) : std::nullopt;
+}
+
 std::vector<std::string> error_unknown(const RenderFacts& f) {
   const Integrator& method = *f.integrator;
   std::vector<std::string> sentences = blind_spots(method, f.optics(), integrators());
@@ -194,13 +200,13 @@ std::string error_verdict(const ErrorEstimate& error) {
     return fmt::format("{:.3g} %", 100 * std::sqrt(relmse));
   };
   std::string known = "its passes are too few to say more";
-  if (!error.looks().empty() && std::isfinite(error.looks().back().upper)) {
+  if (!error.looks().empty()) {
     const ErrorLook& look = error.looks().back();
-    known =
-        fmt::format("with {:g} % confidence it is below {} (expected: {})",
-                    100 * ErrorEstimate::confidence, percent(look.upper), percent(look.expected));
-  } else if (!error.looks().empty()) {
-    known = "the picture is black so far, which says nothing";
+    known = fmt::format(
+        "with {:g} % confidence it is below {} ({})", 100 * ErrorEstimate::confidence,
+        percent(look.upper),
+        look.groups > 0 ? "expected: " + percent(look.expected) : "as an earlier render found");
+    if (std::isinf(look.upper)) known = "the picture is black so far, which says nothing";
   }
   return fmt::format("error of {:.3g} % {}: {}", 100 * error.target(),
                      error.reached() ? "reached" : "not reached", known);

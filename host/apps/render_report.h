@@ -49,6 +49,9 @@ void add_progress(const Film& film, const FilmSummary& summary,
 /// pellucid:relmseUpper and pellucid:relmseConfidence, if they are known of just this film.
 void add_error(const Film& film, const ErrorEstimate& error, Evidence& evidence);
 
+/// What add_error() left in a checkpoint: a bound of the root of relMSE of its film.
+std::optional<double> known_error(const Evidence& evidence);
+
 /// Whole sentences on what no estimate of the noise can know in this render.
 std::vector<std::string> error_unknown(const RenderFacts& facts);
 

@@ -113,6 +113,14 @@ ErrorEstimate::ErrorEstimate(double target, const Film& film)
   size_ = std::max<std::uint64_t>(unit_, next_look_ / most_groups);
 }
 
+void ErrorEstimate::recall(double upper_root) {
+  ErrorLook look;
+  look.passes = passes_;
+  look.relmse = look.expected = std::numeric_limits<double>::quiet_NaN();
+  look.upper = upper_root * upper_root;
+  looks_.push_back(look);
+}
+
 std::uint64_t ErrorEstimate::border() const {
   return (passes_ / size_ + 1) * size_;
 }
@@ -182,8 +190,8 @@ void ErrorEstimate::look(const Film& film) {
     now.spread = std::sqrt(spread2);
     const double k = double(looks_.size() + 1);
     const double alpha = (1 - confidence) / (k * (k + 1));
-#include "base/statistics.h"
-#include "render/sampler.h"
+    const double t = student_quantile(1 - alpha, n - 1);
+    now.upper = now.expected * std::exp(t * std::sqrt(std::log1p(spread2) * (1 + 1 / n)));
   }
   looks_.push_back(now);
 }
@@ -194,7 +202,8 @@ bool ErrorEstimate::reached() const {
 
 std::uint64_t ErrorEstimate::likely_end(const FilmSummary& now) const {
   double margin = 1;
-  if (!looks_.empty()) margin = looks_.back().upper / looks_.back().relmse;
+  if (!looks_.empty() && looks_.back().relmse > 0)
+    margin = looks_.back().upper / looks_.back().relmse;
   const double passes = double(now.iterations) * now.relmse * margin / (target_ * target_);
   if (!(passes < 0x1p32)) return 0;  // nor if there is no estimate
   std::uint64_t look = next_look_;

@@ -37,6 +37,9 @@ class ErrorEstimate {
   /// the picture but of no group.
   ErrorEstimate(double target, const Film& film);
 
+  /// An earlier render found this bound for the very film of the constructor.
+  void recall(double upper_root);
+
   /// Number of passes at which the film is to be shown next.
   std::uint64_t border() const;
   /// With exactly border() passes.

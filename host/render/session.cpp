@@ -59,6 +59,7 @@ Session::Session(const Device& device, const PackedScene& scene, const Integrato
     film_ = std::move(*start);
   }
   if (options_.error) error_.emplace(*options_.error, film_);
+  if (options_.error && options_.known_error) error_->recall(*options_.known_error);
 }
 
 /// The next passes to do, at most `most` and within one block unless every block on the way is new

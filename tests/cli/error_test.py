@@ -107,6 +107,14 @@ def test_resume():
     check(stats["error_estimate"]["reached"], "reached", stats)
     expect(0, [*SAME, "-q", "--spp", str(stats["spp"]), "-o", "whole.exr"])
     check(run("compare", "r.exr", "whole.exr", "--fail-above", "mse=0")[0] == 0, "the same bits")
+    out, err = expect(0, [*common, "--error", "3%", "-o", "r.exr", "--json", "-"], "an earlier render found")
+    check(json.loads(out)["spp"] == stats["spp"], "what is reached stays so", err)
+    check(run("compare", "r.exr", "whole.exr", "--fail-above", "mse=0")[0] == 0, "the same bits")
+    out, _ = expect(0, [*common, "-q", "--error", "2.9%", "-o", "r.exr", "--json", "-"])
+    check(json.loads(out)["spp"] >= stats["spp"], "for less, it goes on", out)
+    expect(0, [*SAME, "-q", "--passes", "8192:8193", "--checkpoint", "more.ckpt", "-o", "x.exr"])
+    expect(0, ["merge", "r.ckpt", "more.ckpt", "-o", "merged.exr"])
+    check("pellucid:relmseUpper" not in document(["info", "merged.exr"])["metadata"], "of no other film")
 
 
 def test_signals():
