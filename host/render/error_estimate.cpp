@@ -202,7 +202,7 @@ bool ErrorEstimate::reached() const {
 
 std::uint64_t ErrorEstimate::likely_end(const FilmSummary& now) const {
   double margin = 1;
-  if (!looks_.empty() && looks_.back().relmse > 0)
+  if (!looks_.empty() && looks_.back().groups > 0)
     margin = looks_.back().upper / looks_.back().relmse;
   const double passes = double(now.iterations) * now.relmse * margin / (target_ * target_);
   if (!(passes < 0x1p32)) return 0;  // nor if there is no estimate

@@ -147,6 +147,19 @@ TEST(ErrorEstimate, TheEndIsALookToo) {
   EXPECT_TRUE(run(few, 1, 3, 5, plain).looks().empty());
 }
 
+TEST(ErrorEstimate, WhatAnEarlierRenderFoundCounts) {
+  Film film = black(1);
+  run(film, 1e-6, 40, 10, plain);
+  ErrorEstimate error(0.1, film);
+  error.recall(0.11);
+  EXPECT_FALSE(error.reached());
+  EXPECT_GT(error.likely_end(summarise(film)), 0u);
+  error.recall(0.09);
+  EXPECT_TRUE(error.reached());
+  error.finish(film);
+  EXPECT_TRUE(error.reached()) << "no look without passes";
+}
+
 TEST(ErrorEstimate, BlackIsNoEvidence) {
   Film film = black(1);
   const ErrorEstimate error =
