@@ -34,6 +34,7 @@ nlohmann::json as_json(const RenderFacts& f, FeatureSet features, const MemoryPl
       {"passes", o.passes ? json({o.passes->first, o.passes->last}) : json()},
       {"settings", settings_text(*f.scene, o)},
       {"time", o.seconds ? json(*o.seconds) : json()},
+      {"error", o.error ? json(*o.error) : json()},
       {"seed", o.seed},
       {"max_depth", o.max_depth ? json(*o.max_depth) : json()},
       {"mis", mis_name(o.mis)},
@@ -63,6 +64,7 @@ std::string as_text(const RenderFacts& f, FeatureSet features, const MemoryPlan&
     budget.push_back(fmt::format("{} spp, passes {}:{}", o.passes->last - o.passes->first,
                                  o.passes->first, o.passes->last));
   if (o.seconds) budget.push_back(format_seconds(*o.seconds));
+  if (o.error) budget.push_back(fmt::format("error below {:g} %", 100 * *o.error));
   std::string text = fmt::format(
       "{}\n  scene     {}, hash {}\n  method    {}, mis {}, seed {}, max depth {}\n"
       "  film      {}\n  budget    {}\n  device    {} {}, {} {}\n  features  {}\n  kernels   {}\n"

@@ -114,6 +114,7 @@ std::optional<Film> RenderJob::resumed_film() {
         fmt::format("checkpoint '{}' (the one) is not of this render (the other): {}; repeat its "
                     "options, or name another file with --checkpoint",
                     flags_.checkpoint, what));
+  facts_.options.known_error = known_error(earlier_->facts.evidence);
   const PassSet& done = earlier_->film.passes;
   const auto& wanted = facts_.options.passes;
   log_info("going on with '{}', which has passes {}{}", flags_.checkpoint, done.text(),
@@ -130,14 +131,17 @@ void RenderJob::write_pictures_of(const Film& film) {
   image.metadata = lasting_evidence(facts_);
   add_progress(film, facts_.film, facts_.session->counters(), facts_.seconds.render,
                image.metadata);
+  if (facts_.session->error()) add_error(film, *facts_.session->error(), image.metadata);
   if (flags_.deterministic) make_deterministic(image.metadata);
   write_pictures(names_, image, flags_.display.transform());
 }
 
 void RenderJob::write_checkpoint_of(const Film& film) {
-  write_checkpoint(flags_.checkpoint, film,
-                   {identity(facts_), lasting_evidence(facts_), facts_.session->counters(),
-                    facts_.seconds.render, aovs_});
+  Evidence evidence = lasting_evidence(facts_);
+  if (facts_.session->error()) add_error(film, *facts_.session->error(), evidence);
+  write_checkpoint(
+      flags_.checkpoint, film,
+      {identity(facts_), evidence, facts_.session->counters(), facts_.seconds.render, aovs_});
 }
 
 /// Writes the checkpoint and, if wanted, the pictures; if one fails, the others are still written.
@@ -220,8 +224,17 @@ ExitCode RenderJob::finish(bool complete) {
   if (!counters.empty()) log_warn("device counters: {}", counters);
   if (!complete) log_warn("stopped early; what was rendered is written");
   // No warning: nothing went wrong, and --strict takes none. It stays in the picture's evidence.
-  for (const std::string& blind : blind_spots(*f.integrator, f.optics(), integrators()))
-    log_info("{}", blind);
+  for (const std::string& unseen :
+       f.options.error ? error_unknown(f) : blind_spots(*f.integrator, f.optics(), integrators()))
+    log_info("{}", unseen);
+  const bool missed = f.session->error() && !f.session->error()->reached();
+  if (f.session->error()) {
+    const std::string verdict = error_verdict(*f.session->error());
+    if (missed && complete)
+      log_error("--error: {}", verdict);
+    else
+      log_info("{}", verdict);
+  }
   nlohmann::json document = render_stats(f);
   document["outputs"] = flags_.results(names_);
   document["complete"] = complete;
@@ -231,7 +244,8 @@ ExitCode RenderJob::finish(bool complete) {
     for (const std::string& name : flags_.results(names_)) print_result(name + "\n");
   if (flags_.strict && error_count(f.session->counters()) > 0)
     throw NumericError("--strict: " + counters);
-  return complete ? ExitCode::done : ExitCode::stopped;
+  if (!complete) return ExitCode::stopped;
+  return missed ? ExitCode::gate_failed : ExitCode::done;
 }
 
 ExitCode RenderJob::run() {

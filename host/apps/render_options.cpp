@@ -46,7 +46,7 @@ uint parse_mis(const std::string& text, const Integrator& method) {
   return text == "power" ? MIS_POWER : text == "max" ? MIS_MAX : MIS_BALANCE;
 }
 
-/// Passes to have in the end; none where only the time ends the render.
+/// Passes to have in the end; none where only time or error ends the render.
 std::optional<PassRange> pass_range(const RenderFlags& flags, const Scene& scene) {
   constexpr std::uint64_t default_spp = 64;
   if (!flags.passes.empty()) {
@@ -57,8 +57,16 @@ std::optional<PassRange> pass_range(const RenderFlags& flags, const Scene& scene
     return range;
   }
   if (flags.spp) return PassRange{0, flags.spp};
-  if (!flags.time.empty()) return std::nullopt;
+  if (!flags.time.empty() || !flags.error.empty()) return std::nullopt;
   return PassRange{0, scene.settings.spp ? std::uint64_t(*scene.settings.spp) : default_spp};
+}
+
+double wanted_error(const std::string& text) {
+  const double error = parse_fraction("--error", text);
+  if (!(error > 0 && error <= 1))
+    throw UsageError("--error takes a part above 0 and up to 1 such as 1% or 0.01, not '" + text +
+                     "'");
+  return error;
 }
 
 std::string one_of(const std::string& option, const std::string& text,
@@ -164,6 +172,11 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
   app.add_option("--time", f.time,
                  "stop after this long, e.g. 60s or 10m; with --spp, whichever is first")
       ->type_name("DURATION");
+  app.add_option("--error", f.error,
+                 "stop when the error, the root of relMSE, is below this with 95 % confidence, "
+                 "e.g. 1%; with --spp, --time or --passes, whichever is first, and exit code 1 if "
+                 "these come first")
+      ->type_name("FRACTION");
   app.add_option("--sampler", f.sampler,
                  "sobol (default): scrambled Sobol points, less noise; random: independent numbers")
       ->type_name("sobol|random");
@@ -312,12 +325,14 @@ RenderOptions RenderFlags::options(const Scene& s, const Integrator& method) con
   o.width = s.settings.width;
   o.height = s.settings.height;
   if (!time.empty()) o.seconds = parse_duration("--time", time);
+  if (!error.empty()) o.error = wanted_error(error);
   o.passes = pass_range(*this, s);
   if (!crop.empty()) o.crop = parse_crop("--crop", crop, o.width, o.height);
   if (!memory.empty()) o.memory = parse_bytes("--memory", memory);
   // Layers are copied twice on their way into a picture, too.
   o.host_bytes = o.window().pixels() * ((checkpoint.empty() ? 0 : checkpoint_bytes_per_pixel) +
                                         2 * layer_bytes(method.layers));
+  if (o.error) o.host_bytes += ErrorEstimate::host_bytes(o.window().pixels());
   o.seed = seed;
   if (max_depth) o.max_depth = uint(max_depth);
   if (!max_depth && s.settings.max_depth) o.max_depth = uint(*s.settings.max_depth);

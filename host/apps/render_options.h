@@ -18,8 +18,8 @@ namespace pellucid {
 
 /// Options as people write them. Precedence: flag, environment, scene, default.
 struct RenderFlags {
-  std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, size, crop,
-                                 passes, features = "auto", float_mode = "strict", kernel_dir,
+  std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, error, size,
+                                 crop, passes, features = "auto", float_mode = "strict", kernel_dir,
                                  stats, memory, checkpoint, every, vertices, radius, radius_alpha,
                                  merges, atlas, grid;
   std::vector<std::string> overrides, outputs, aovs;

@@ -11,6 +11,8 @@
 #include "apps/scene_report.h"
 #include "base/text.h"
 #include "base/version.h"
+#include "integrators/registry.h"
+#include "render/launch.h"
 
 namespace pellucid {
 namespace {
@@ -75,6 +77,32 @@ std::string counters_text(const std::vector<Counter>& counters) {
   return text.empty() ? "all zero" : text;
 }
 
+/// The contract's `error_estimate`.
+nlohmann::json error_report(const RenderFacts& f) {
+  using nlohmann::json;
+  const std::optional<ErrorEstimate>& error = f.session->error();
+  // Without --error nothing is known of the estimate's own error, so no confidence is claimed.
+  if (!error) return {{"relmse", f.film.relmse}, {"confidence", nullptr}};
+  json looks = json::array();
+  for (const ErrorLook& look : error->looks())
+    looks.push_back({{"spp", look.passes},
+                     {"relmse", look.relmse},
+                     {"relmse_expected", look.expected},
+                     {"relmse_upper", look.upper},
+                     {"groups", look.groups},
+                     {"spread", look.spread},
+                     {"effective", look.effective}});
+  const bool known = !error->looks().empty();
+  return {{"relmse", f.film.relmse},
+          {"confidence", ErrorEstimate::confidence},
+          {"relmse_upper", known ? json(error->looks().back().upper) : json()},
+          {"target", error->target()},
+          {"reached", error->reached()},
+          {"groups", known ? error->looks().back().groups : 0},
+          {"looks", looks},
+          {"unknown", error_unknown(f)}};
+}
+
 }  // namespace
 
 std::string settings_text(const Scene& scene, const RenderOptions& o) {
@@ -119,6 +147,12 @@ void add_progress(const Film& film, const FilmSummary& summary,
   meta["renderTimeSeconds"] = float(seconds);
 }
 
+void add_error(const Film& film, const ErrorEstimate& error, Evidence& meta) {
+  if (error.looks().empty() || error.looks().back().passes != film.passes.count()) return;
+  meta["pellucid:relmseUpper"] = float(error.looks().back().upper);
+  meta["pellucid:relmseConfidence"] = float(ErrorEstimate::confidence);
+}
+
 void make_deterministic(Evidence& evidence) {
   for (const char* name : {"renderTimeSeconds", "pellucid:device", "pellucid:driver"})
     evidence.erase(name);
@@ -132,6 +166,50 @@ std::map<std::string, std::string> identity(const RenderFacts& f) {
                                          {"seed", std::to_string(f.options.seed)}};
   for (const auto& [name, value] : settings(*f.scene, f.options)) all.emplace(name, value);
   return all;
+}
+
+std::optional<double> known_error(const Evidence& evidence) {
+  const auto found = evidence.find("pellucid:relmseUpper");
+  const float* upper = found == evidence.end() ? nullptr : std::get_if<float>(&found->second);
+  return upper ? std::optional<double>(std::sqrt(double(*upper))) : std::nullopt;
+}
+
+std::vector<std::string> error_unknown(const RenderFacts& f) {
+  const Integrator& method = *f.integrator;
+  std::vector<std::string> sentences = blind_spots(method, f.optics(), integrators());
+  for (const std::string& what : chance_paths(method, f.optics()))
+    sentences.push_back(
+        fmt::format("'{}' finds {} by chance alone: those that no pass has met are not in the "
+                    "estimate of the error",
+                    method.name, what));
+  if (method.wishes.has(INTG_MERGE)) {
+    const Merging merging = merging_for(*f.packed, f.options);
+    const std::uint64_t first = f.options.passes ? f.options.passes->first : 0;
+    const std::uint64_t last = first + std::max<std::uint64_t>(f.film.iterations, 1) - 1;
+    sentences.push_back(
+        fmt::format("'{}' merges within a radius of {:.3g} in the first pass and {:.3g} in the "
+                    "last: what that blurs is bias, which is not in the estimate of the error",
+                    method.name, merging_radius(merging, first), merging_radius(merging, last)));
+  }
+  sentences.push_back("bright paths so rare that no pass has met one are in no estimate");
+  return sentences;
+}
+
+std::string error_verdict(const ErrorEstimate& error) {
+  const auto percent = [](double relmse) {
+    return fmt::format("{:.3g} %", 100 * std::sqrt(relmse));
+  };
+  std::string known = "its passes are too few to say more";
+  if (!error.looks().empty()) {
+    const ErrorLook& look = error.looks().back();
+    known = fmt::format(
+        "with {:g} % confidence it is below {} ({})", 100 * ErrorEstimate::confidence,
+        percent(look.upper),
+        look.groups > 0 ? "expected: " + percent(look.expected) : "as an earlier render found");
+    if (std::isinf(look.upper)) known = "the picture is black so far, which says nothing";
+  }
+  return fmt::format("error of {:.3g} % {}: {}", 100 * error.target(),
+                     error.reached() ? "reached" : "not reached", known);
 }
 
 nlohmann::json render_stats(const RenderFacts& f) {
@@ -175,8 +253,7 @@ nlohmann::json render_stats(const RenderFacts& f) {
           {"memory_bytes", f.session->plan().memory()},
           {"film_bytes", f.session->memory().film_bytes},
           {"tiles", f.session->memory().tiles.size()},
-          // One standard error of the estimate is not known yet, so no confidence is claimed.
-          {"error_estimate", {{"relmse", f.film.relmse}, {"confidence", nullptr}}},
+          {"error_estimate", error_report(f)},
           {"device", f.device->name},
           {"driver", f.device->platform_name + " " + f.device->driver}};
 }

@@ -46,6 +46,18 @@ Evidence lasting_evidence(const RenderFacts& facts);
 void add_progress(const Film& film, const FilmSummary& summary,
                   const std::vector<Counter>& counters, double seconds, Evidence& evidence);
 
+/// pellucid:relmseUpper and pellucid:relmseConfidence, if they are known of just this film.
+void add_error(const Film& film, const ErrorEstimate& error, Evidence& evidence);
+
+/// What add_error() left in a checkpoint: a bound of the root of relMSE of its film.
+std::optional<double> known_error(const Evidence& evidence);
+
+/// Whole sentences on what no estimate of the noise can know in this render.
+std::vector<std::string> error_unknown(const RenderFacts& facts);
+
+/// "error of 1 % reached: ..."
+std::string error_verdict(const ErrorEstimate& error);
+
 /// Takes out time, host and device, for files that must be the same wherever they are made.
 void make_deterministic(Evidence& evidence);
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <thread>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/timer.h"
-#include "base/clock.h"
 #include "bench/embree_rays.h"
 
 namespace pellucid {

@@ -350,6 +350,8 @@ void merge_checkpoint(Checkpoint& into, const std::string& into_name, const Chec
   add_missing(into.facts.aovs, other.facts.aovs);
   for (const char* place : {"pellucid:device", "pellucid:driver", "pellucid:version"})
     join_evidence(into.facts.evidence, other.facts.evidence, place);
+  for (const char* of_one : {"pellucid:relmseUpper", "pellucid:relmseConfidence"})
+    into.facts.evidence.erase(of_one);
 }
 
 std::string kernels_hash(const Integrator& integrator, const std::string& kernel_dir) {

@@ -155,11 +155,11 @@ FilmSummary summarise(const Film& film) {
     out.relmse = std::numeric_limits<double>::quiet_NaN();
     return out;
   }
-  const double e2 = 1e-4 * out.mean * out.mean;  // e = 1 % of the mean
+  const double e = relmse_epsilon * out.mean;
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
     const PixelStats s = statistics(i);
     for (std::size_t c = 0; c < 3; ++c) {
-      const double below = s.mean[c] * s.mean[c] + e2;
+      const double below = s.mean[c] * s.mean[c] + e * e;
       out.relmse += below > 0 ? s.variance_of_mean[c] / below / values : 0;
     }
   }

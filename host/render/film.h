@@ -59,12 +59,15 @@ class Film {
   /// result does not depend on order or grouping, bit for bit.
   void merge(const Film& other);
 
-  /// Sum of all samples and of the squares of complete blocks, per channel; for tests.
+  /// Sum of all samples and of the squares of complete blocks, per channel.
   struct Sums {
     std::array<double, 3> sum{}, square{};
   };
   Sums sums(std::size_t pixel) const;
 };
+
+/// e of relMSE, in means of the picture.
+constexpr double relmse_epsilon = 0.01;
 
 struct FilmSummary {
   std::uint64_t iterations = 0;  ///< of each pixel

@@ -71,12 +71,16 @@ Merging merging_for(const PackedScene& scene, const RenderOptions& options) {
           options.radius_alpha, least_radius(scene), options.merge_first_only};
 }
 
-void set_merging(Launch& launch, const Merging& merging) {
-  constexpr double pi = 3.14159265358979323846;
+double merging_radius(const Merging& merging, std::uint64_t pass) {
   // [Knaus11]: as a function of the pass, so that passes may be done in any order.
   const double shrunk =
-      merging.first_radius * std::pow(double(launch.iteration) + 1.0, 0.5 * (merging.alpha - 1));
-  const double radius = std::max(shrunk, merging.least_radius);
+      merging.first_radius * std::pow(double(pass) + 1.0, 0.5 * (merging.alpha - 1));
+  return std::max(shrunk, merging.least_radius);
+}
+
+void set_merging(Launch& launch, const Merging& merging) {
+  constexpr double pi = 3.14159265358979323846;
+  const double radius = merging_radius(merging, launch.iteration);
   const double eta = pi * radius * radius * launch.light_paths;
   launch.radius = float(radius);
   launch.merge_scale = float(1 / eta);

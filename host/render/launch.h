@@ -33,6 +33,9 @@ struct Merging {
 /// As asked for, or by the scene's size and the light paths.
 Merging merging_for(const PackedScene& scene, const RenderOptions& options);
 
+/// In one pass.
+double merging_radius(const Merging& merging, std::uint64_t pass);
+
 /// What merging needs to know in launch.iteration, which alone decides on the radius.
 void set_merging(Launch& launch, const Merging& merging);
 

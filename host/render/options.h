@@ -29,10 +29,12 @@ struct PlanOptions {
 };
 
 struct RenderOptions {
-  int width = 512, height = 512;    ///< of the whole picture; must agree with the packed camera
-  std::optional<Window> crop;       ///< the part to render; absent: all of it
-  std::optional<PassRange> passes;  ///< global passes to have in the end
-  std::optional<double> seconds;    ///< ends the render after the iteration in hand
+  int width = 512, height = 512;      ///< of the whole picture; must agree with the packed camera
+  std::optional<Window> crop;         ///< the part to render; absent: all of it
+  std::optional<PassRange> passes;    ///< global passes to have in the end
+  std::optional<double> seconds;      ///< ends the render after the iteration in hand
+  std::optional<double> known_error;  ///< bound of it for the film to go on with
+  std::optional<double> error;        ///< root of relMSE: ends it when an ErrorEstimate says so
   std::uint64_t seed = 0;
   std::optional<uint> max_depth;  ///< segments; absent = unlimited
   uint mis = MIS_BALANCE;

@@ -41,7 +41,7 @@ Session::Session(const Device& device, const PackedScene& scene, const Integrato
       plan_(timed_plan(device, scene, integrator, options, memory_, kernel_seconds_)),
       film_(options.width, options.height, options.window(),
             scene.brightness_exponent - FILM_FRACTION_BITS, block_size_of(plan_)) {
-  PELLUCID_CHECK(options_.passes || options_.seconds, "a render needs a budget");
+  PELLUCID_CHECK(options_.passes || options_.seconds || options_.error, "a render needs a budget");
   launch_ = make_launch(scene, options_.width, options_.height, options_.window(),
                         options_.light_paths.value_or(0));
   launch_.seed = hash_seed(options_.seed);
@@ -58,6 +58,8 @@ Session::Session(const Device& device, const PackedScene& scene, const Integrato
                    "a film to go on with is of the same picture");
     film_ = std::move(*start);
   }
+  if (options_.error) error_.emplace(*options_.error, film_);
+  if (options_.error && options_.known_error) error_->recall(*options_.known_error);
 }
 
 /// The next passes to do, at most `most` and within one block unless every block on the way is new
@@ -70,6 +72,7 @@ std::optional<Session::Batch> Session::next_batch(std::uint64_t most) const {
   const PassRange block = film_.block_range(gap.first / film_.block_size);
   const bool fresh = film_.passes.count(block) == 0 && gap.first == block.first;
   std::uint64_t count = std::min(most, gap.count());
+  if (error_) count = std::min(count, error_->border() - film_.passes.count());
   if (!fresh) count = std::min(count, block.last - gap.first);
   // Whole blocks, or a part of one: a batch never ends in its second block.
   if (count > film_.block_size) count -= count % film_.block_size;
@@ -138,6 +141,20 @@ std::uint64_t Session::batch_limit(double elapsed, std::uint64_t done) const {
   return done ? std::uint64_t(std::clamp(target / (elapsed / double(done)), 1.0, most)) : 1;
 }
 
+/// Of what ends the render first, as far as that is known.
+double Session::part_done(double elapsed, std::uint64_t done) const {
+  const PassRange wanted = options_.passes.value_or(PassRange{0, 0});
+  std::uint64_t left = 0;
+  for (const PassRange& gap : film_.passes.missing(wanted)) left += gap.count();
+  double part = 0;
+  if (options_.passes) part = double(done) / double(std::max<std::uint64_t>(done + left, 1));
+  if (options_.seconds) part = std::max(part, elapsed / *options_.seconds);
+  const std::uint64_t end = error_ ? error_->likely_end(seen_) : 0;
+  if (end > film_.passes.count())
+    part = std::max(part, double(done) / double(done + end - film_.passes.count()));
+  return std::min(1.0, part);
+}
+
 std::string Session::progress_text(double elapsed, std::uint64_t done) {
   if (elapsed >= next_look_) {
     const Timer cost;
@@ -146,21 +163,16 @@ std::string Session::progress_text(double elapsed, std::uint64_t done) {
     constexpr double least_pause = 1.0, times_its_cost = 50.0;
     next_look_ = elapsed + std::max(least_pause, times_its_cost * cost.seconds());
   }
-  const PassRange wanted = options_.passes.value_or(PassRange{0, 0});
-  std::uint64_t left = 0;
-  for (const PassRange& gap : film_.passes.missing(wanted)) left += gap.count();
-  const double done_passes =
-      options_.passes ? double(done) / double(std::max<std::uint64_t>(done + left, 1)) : 0.0;
-  const double done_time = options_.seconds ? elapsed / *options_.seconds : 0.0;
-  const double part = std::min(1.0, std::max(done_passes, done_time));
+  const double part = part_done(elapsed, done);
   const double seconds_left = part > 0 ? elapsed / part - elapsed : 0.0;
   const double rays_per_pass =
       double(seen_.rays) / double(std::max<std::uint64_t>(seen_.iterations, 1));
   return fmt::format(
-      "{:3.0f} %  pass {}  {:.1f} Mrays/s  {} left{}", 100 * part, film_.passes.count(),
+      "{:3.0f} %  pass {}  {:.1f} Mrays/s  {} left{}{}", 100 * part, film_.passes.count(),
       1e-6 * rays_per_pass * double(done) / elapsed, format_seconds(seconds_left),
       std::isfinite(seen_.relmse) ? fmt::format("  noise {:.2g} %", 100 * std::sqrt(seen_.relmse))
-                                  : "");
+                                  : "",
+      error_ ? fmt::format("  wanted {:.2g} %", 100 * error_->target()) : "");
 }
 
 bool Session::run(const RenderHooks& hooks) {
@@ -171,6 +183,7 @@ bool Session::run(const RenderHooks& hooks) {
   while (true) {
     const double elapsed = timer.seconds();
     if (options_.seconds && done > 0 && elapsed >= *options_.seconds) break;
+    if (error_ && error_->reached()) break;
     const std::optional<Batch> batch = next_batch(batch_limit(elapsed, done));
     if (!batch) break;
     if (done > 0 && hooks.stop && hooks.stop()) {
@@ -179,6 +192,7 @@ bool Session::run(const RenderHooks& hooks) {
     }
     render_batch(*batch);
     done += batch->count;
+    if (error_ && film_.passes.count() == error_->border()) error_->observe(film());
     if (hooks.progress) hooks.progress(progress_text(timer.seconds(), done));
     render_seconds_ = seconds_before + timer.seconds();
     if (hooks.wants_film && hooks.wants_film()) {
@@ -186,6 +200,7 @@ bool Session::run(const RenderHooks& hooks) {
       hooks.film(film());
     }
   }
+  if (error_) error_->finish(film());
   render_seconds_ = seconds_before + timer.seconds();
   plan_.collect(counters_);
   return complete;

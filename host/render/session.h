@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "render/error_estimate.h"
 #include "render/film.h"
 #include "render/memory.h"
 #include "render/plan.h"
@@ -42,6 +43,8 @@ class Session {
   void add_counters(const std::vector<Counter>& earlier);
   const Plan& plan() const { return plan_; }
   const MemoryPlan& memory() const { return memory_; }
+  /// What is known of the error, where one is asked for.
+  const std::optional<ErrorEstimate>& error() const { return error_; }
 
  private:
   struct Batch {
@@ -53,6 +56,7 @@ class Session {
   void to_device(const Window& tile);
   void to_host(const Window& tile);
   std::string progress_text(double elapsed, std::uint64_t done);
+  double part_done(double elapsed, std::uint64_t done) const;
 
   RenderOptions options_;
   MemoryPlan memory_;
@@ -62,6 +66,7 @@ class Session {
   Film film_;
   bool device_has_film_, host_has_film_ = true;  ///< which of them know all passes done
   double swap_seconds_ = 0;                      ///< of moving all tiles once
+  std::optional<ErrorEstimate> error_;
   FilmSummary seen_;      ///< of the last look at the film, for the progress line
   double next_look_ = 0;  ///< seconds after the start of run()
   double render_seconds_ = 0;

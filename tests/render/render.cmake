@@ -3,7 +3,7 @@
 set(render_dir ${CMAKE_SOURCE_DIR}/tests/render)
 set(render_sources ${CMAKE_SOURCE_DIR}/tests/support/statistics.cpp)
 foreach(name render_harness closed_forms closed_form_cases closed_form_test equality equality_test
-             exact_test passes_test rigid_test texture_test golden_test filter_test aov_test layers_test
+             error_test exact_test passes_test rigid_test texture_test golden_test filter_test aov_test layers_test
              light_test merging_test photons_test vertices_test)
   list(APPEND render_sources ${render_dir}/${name}.cpp)
 endforeach()
@@ -16,5 +16,7 @@ pellucid_script_test(threads render ${render_dir}/threads_test.py $<TARGET_FILE:
 
 add_test(NAME slow.render_full
          COMMAND render_tests --gtest_filter=*ClosedForm*:*Equality*:*Rigid*:*Golden*)
-set_tests_properties(slow.render_full PROPERTIES LABELS slow TIMEOUT 3600
+# How often --error keeps its word: 200 renders of each method and scene; prints its figures.
+add_test(NAME slow.error_coverage COMMAND render_tests --gtest_filter=ErrorCoverage.*)
+set_tests_properties(slow.render_full slow.error_coverage PROPERTIES LABELS slow TIMEOUT 3600
                      ENVIRONMENT PELLUCID_TIER=full)

@@ -158,29 +158,55 @@ void Renderer::check_counters() {
   expect_no_errors(counters);
 }
 
-Picture Renderer::render(const Sampling& run) {
-  constexpr std::uint64_t queue_length = 1024;
+Launch Renderer::launch_for(const Sampling& run) {
   Launch launch = make_launch(packed_, build_.width, build_.height,
                               {0, 0, build_.width, build_.height}, build_.light_paths);
   launch.seed = uint(run.seed) * 2654435769u + 12345u;  // any spread will do
   launch.max_depth = run.max_depth.value_or(NONE);
   launch.mis = run.mis;
+  return launch;
+}
+
+Film Renderer::black_film(const Launch& launch) {
   const std::uint64_t block = plan_.specialisation().features.has(INTG_SOBOL) ? SOBOL_BLOCK : 1u;
   Film film(build_.width, build_.height, {0, 0, build_.width, build_.height}, launch.film_lsb,
             block);
-  EXPECT_EQ(run.spp % block, 0u) << "pictures are made of whole blocks";
   plan_.write_film(film.pixels.data(), film.pixels.size());
-  for (std::uint64_t i = 0; i < run.spp; ++i) {
+  return film;
+}
+
+void Renderer::advance(Film& film, Launch launch, std::uint64_t passes) {
+  constexpr std::uint64_t queue_length = 1024;
+  EXPECT_EQ(passes % film.block_size, 0u) << "pictures are made of whole blocks";
+  const std::uint64_t done = film.passes.count();
+  for (std::uint64_t i = done; i < passes; ++i) {
     launch.iteration = uint(i);
-    launch.block_ends = (i + 1) % block == 0;
+    launch.block_ends = (i + 1) % film.block_size == 0;
     plan_.enqueue(launch);
     if (i % queue_length == queue_length - 1) plan_.finish();
   }
   plan_.finish();
   check_counters();
   plan_.read_film(film.pixels.data(), film.pixels.size());
-  film.passes.add({0, run.spp});
+  film.passes.add({done, passes});
+}
+
+Picture Renderer::render(const Sampling& run) {
+  const Launch launch = launch_for(run);
+  Film film = black_film(launch);
+  advance(film, launch, run.spp);
   return Picture(std::move(film));
+}
+
+std::pair<Picture, ErrorEstimate> Renderer::render_to(double target, const Sampling& run) {
+  const Launch launch = launch_for(run);
+  Film film = black_film(launch);
+  ErrorEstimate error(target, film);
+  while (film.passes.count() < run.spp && !error.reached()) {
+    advance(film, launch, error.border());
+    error.observe(film);
+  }
+  return {Picture(std::move(film)), std::move(error)};
 }
 
 Measured Renderer::measure(const Sampling& run) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cl/device.h"
@@ -91,6 +92,8 @@ class Renderer {
  public:
   Renderer(const Scene& scene, const Build& build);
   Picture render(const Sampling& run);
+  /// Until an error estimate says that the error is below `target`, or run.spp.
+  std::pair<Picture, ErrorEstimate> render_to(double target, const Sampling& run);
   /// Pixels of methods that splat share light paths, so there the spread of runs tells the error.
   Measured measure(const Sampling& run);
   /// spp for which the image's mean is known to `relative` (standard error) by a pilot of its own
@@ -101,6 +104,10 @@ class Renderer {
 
  private:
   void check_counters();
+  Launch launch_for(const Sampling& run);
+  Film black_film(const Launch& launch);
+  /// Goes on to so many passes in all, and reads the film.
+  void advance(Film& film, Launch launch, std::uint64_t passes);
 
   Build build_;
   PackedScene packed_;
