@@ -189,7 +189,8 @@ void Runner::replicate() {
     for (Entry* entry : order) {
       const bool blind = entry->option.state == OptionState::blind;
       if (entry->option.state == OptionState::refused || (blind && k >= blind_runs)) continue;
-      if (clock_.seconds() + entry->contender->cost(entry->ladder.back()) > request_.budget_seconds)
+      if (clock_.seconds() + entry->contender->cost(entry->ladder.back()) >
+          until_main * request_.budget_seconds)
         continue;  // it would end too late
       tell(fmt::format("round {} of {}: {}", k + 1, main_runs, entry->contender->method().name));
       replicate_one(*entry, k);
