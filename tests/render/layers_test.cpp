@@ -10,6 +10,7 @@
 #include "integrators/registry.h"
 #include "render_harness.h"
 #include "shared/limits.h"
+#include "support/kernel_folder.h"
 
 namespace pellucid::test {
 namespace {
@@ -34,6 +35,7 @@ RenderOptions options_for(PassRange passes, std::uint64_t seed = 11) {
   o.passes = passes;
   o.seed = seed;
   o.plan.extra_features = all_scene_features();  // one program for all tests
+  o.plan.kernel_dir = kernel_folder();
   return o;
 }
 
