@@ -10,6 +10,7 @@
 
 #include "render/photon_grid.h"
 #include "shared/limits.h"
+#include "support/kernel_folder.h"
 
 #define PELLUCID_REAL float
 #define PELLUCID_REAL_IS_FLOAT 1
@@ -87,6 +88,7 @@ std::vector<U4> brute_force(const Cloud& cloud) {
 PhotonGrid make_grid(std::size_t group = 0) {
   PlanOptions options;
   options.group = group;
+  options.kernel_dir = test::kernel_folder();
   return {Device::open(""), options};
 }
 

@@ -10,6 +10,7 @@
 #include "integrators/registry.h"
 #include "render_harness.h"
 #include "shared/limits.h"
+#include "support/kernel_folder.h"
 
 namespace pellucid::test {
 namespace {
@@ -34,6 +35,7 @@ RenderOptions options_for(PassRange passes, std::uint64_t seed = 11) {
   o.passes = passes;
   o.seed = seed;
   o.plan.extra_features = all_scene_features();  // one program for all tests
+  o.plan.kernel_dir = kernel_folder();
   return o;
 }
 
@@ -214,6 +216,26 @@ TEST(LayersOf, unweighted_strategies_of_a_length_agree) {
                 mean / level[depth], error / level[depth]);
     EXPECT_LT(std::abs(mean), 4.5 * error) << s << ", " << depth;
     EXPECT_LT(4.5 * error, 0.05 * level[depth]) << s << ": too noisy to see an error";
+  }
+}
+
+// Walks do not know how long paths may become, so those of one length bring the same bits whether
+// longer ones are asked for or not, and none of these comes through if they are not.
+TEST(LayersOf, a_length_is_the_same_whatever_is_longer) {
+  constexpr uint asked = longest - 1;
+  for (const char* name : {"path", "light", "bdpt", "sppm", "vcm"}) {
+    const Integrator method = method_of(name, LAYERS_LENGTH);
+    RenderOptions capped = options_for(all_passes);
+    capped.max_depth = asked;
+    const Film all = render(method, options_for(all_passes)), film = render(method, capped);
+    const uint set = all.layers.set;
+    for (uint depth = 1; depth <= asked; ++depth)
+      EXPECT_TRUE(same_layer(all, layer_of_length(set, depth), film, layer_of_length(set, depth)))
+          << name << ", length " << depth;
+    for (uint depth = longest; depth <= longest + 1; ++depth) {
+      EXPECT_GT(total(all, layer_of_length(set, depth)), 0.0) << name << ", length " << depth;
+      EXPECT_EQ(total(film, layer_of_length(set, depth)), 0.0) << name << ", length " << depth;
+    }
   }
 }
 

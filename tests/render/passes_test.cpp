@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "integrators/registry.h"
 #include "render_harness.h"
+#include "support/kernel_folder.h"
 
 namespace pellucid::test {
 namespace {
@@ -29,6 +30,7 @@ RenderOptions options_for(PassRange passes) {
   o.passes = passes;
   o.seed = 11;
   o.plan.extra_features = all_scene_features();  // one program for all tests
+  o.plan.kernel_dir = kernel_folder();
   return o;
 }
 

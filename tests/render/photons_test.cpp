@@ -8,6 +8,7 @@
 #include "integrators/registry.h"
 #include "render/layers.h"
 #include "render_harness.h"
+#include "support/kernel_folder.h"
 #include "support/test_scenes.h"
 
 namespace pellucid::test {
@@ -40,6 +41,7 @@ RenderOptions options_for(PassRange passes, double radius = first_radius) {
   o.passes = passes;
   o.radius = radius;
   o.plan.sampler = Sampler::random;
+  o.plan.kernel_dir = kernel_folder();
   return o;
 }
 

@@ -13,6 +13,7 @@
 #include "render/launch.h"
 #include "scene/load.h"
 #include "shared/limits.h"
+#include "support/kernel_folder.h"
 
 namespace pellucid::test {
 namespace {
@@ -34,8 +35,7 @@ PlanOptions plan_options(const Build& build) {
   o.compact_vertices = build.compact_vertices;
   o.vertices_per_path = build.vertices_per_path;
   o.int64_atomics = build.int64_atomics;
-  // Mutation tests point this at a copy of kernels/ with a planted fault.
-  if (const char* folder = std::getenv("PELLUCID_TEST_KERNELS")) o.kernel_dir = folder;
+  o.kernel_dir = kernel_folder();
   return o;
 }
 

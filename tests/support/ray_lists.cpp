@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "shared/limits.h"
+#include "support/kernel_folder.h"
 
 namespace pellucid::test {
 namespace {
@@ -21,6 +22,7 @@ PackedScene packed_for(const Scene& scene, int width) {
 PlanOptions plan_options(const RayConfig& config) {
   PlanOptions options;
   options.simd_builtins = config.builtins;
+  options.kernel_dir = kernel_folder();
   return options;
 }
 
