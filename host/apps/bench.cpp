@@ -7,19 +7,18 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/bench_gate.h"
+#include "apps/bench_render.h"
 #include "apps/bench_report.h"
 #include "apps/command.h"
 #include "apps/common.h"
 #include "apps/device_input.h"
 #include "apps/scene_input.h"
-#include "base/files.h"
 #include "base/log.h"
 #include "base/text.h"
-#include "bench/method_bench.h"
 #include "bench/ray_bench.h"
 #include "bench/sampler_bench.h"
 #include "bench/sort_bench.h"
-#include "integrators/reach.h"
 #include "integrators/registry.h"
 
 namespace pellucid {
@@ -29,61 +28,17 @@ struct BenchCommand {
   std::string only = "rays", baseline, fail_slower = "10%", kernel_dir;
   std::vector<std::string> scenes_asked;
   DeviceFlags device;
-  int repeats = 7;
+  std::optional<int> repeats;  ///< absent: as the workload likes
 
   ExitCode run(const CommonOptions& common) const;
 
  private:
   ExitCode run_rays(const CommonOptions& common) const;
   ExitCode run_sampler(const CommonOptions& common) const;
-  ExitCode run_methods(const CommonOptions& common) const;
+  ExitCode run_renders(const CommonOptions& common) const;
   ExitCode run_sorts(const CommonOptions& common) const;
+  ExitCode judge(const std::vector<std::string>& worse) const;
 };
-
-/// Cells slower than in the baseline by more than `allowed` (a fraction), or absent there; empty:
-/// the gate holds.
-std::vector<std::string> slower_cells(const nlohmann::json& now, const nlohmann::json& before,
-                                      double allowed) {
-  std::vector<std::string> slower;
-  std::size_t compared = 0;
-  for (const auto& old_cell : before.at("rays"))
-    for (const auto& cell : now.at("rays")) {
-      if (cell["triangles"] != old_cell.at("triangles") || cell["kind"] != old_cell.at("kind"))
-        continue;
-      ++compared;
-      const double ratio =
-          cell["mrays_per_s"].get<double>() / old_cell.at("mrays_per_s").get<double>();
-      if (ratio < 1.0 - allowed)
-        slower.push_back(fmt::format("{} rays on {} triangles: {:.1f} % slower",
-                                     cell["kind"].get<std::string>(), cell["triangles"].get<int>(),
-                                     100 * (1 - ratio)));
-    }
-  if (compared != now.at("rays").size())
-    slower.push_back(fmt::format("{} of {} cells cannot be compared: it lacks them",
-                                 now.at("rays").size() - compared, now.at("rays").size()));
-  return slower;
-}
-
-/// A baseline that a result can be compared with; checked before the bench takes its minutes.
-nlohmann::json read_baseline(const std::string& file) {
-  const auto document = nlohmann::json::parse(read_text(file), nullptr, false);
-  const auto fail = [&](const std::string& why) {
-    throw InputError(
-        fmt::format("{}: {}; make it with 'pellucid bench --json {}'", file, why, file));
-  };
-  if (document.is_discarded()) fail("not valid JSON");
-  if (!document.is_object() || !document.contains("rays") || !document["rays"].is_array() ||
-      document["rays"].empty())
-    fail("there is no list \"rays\"");
-  for (const nlohmann::json& cell : document["rays"]) {
-    const bool whole = cell.is_object() && cell.value("triangles", nlohmann::json()).is_number() &&
-                       cell.value("kind", nlohmann::json()).is_string() &&
-                       cell.value("mrays_per_s", nlohmann::json()).is_number();
-    if (!whole) fail("an entry of \"rays\" lacks \"triangles\", \"kind\" or \"mrays_per_s\"");
-    if (!(cell["mrays_per_s"].get<double>() > 0)) fail("\"mrays_per_s\" is not above 0");
-  }
-  return document;
-}
 
 std::vector<Scene> open_scenes(const std::vector<std::string>& names) {
   std::vector<Scene> scenes;
@@ -91,26 +46,37 @@ std::vector<Scene> open_scenes(const std::vector<std::string>& names) {
   return scenes;
 }
 
+/// What the gate says.
+ExitCode BenchCommand::judge(const std::vector<std::string>& worse) const {
+  for (const std::string& what : worse) log_error("beside {}: {}", baseline, what);
+  return worse.empty() ? ExitCode::done : ExitCode::gate_failed;
+}
+
 ExitCode BenchCommand::run_rays(const CommonOptions& common) const {
-  const double allowed = parse_fraction("--fail-slower", fail_slower);
-  if (allowed < 0 || allowed >= 1)
-    throw UsageError("--fail-slower takes a share from 0% to below 100%, not '" + fail_slower +
-                     "'");
-  const nlohmann::json before = baseline.empty() ? nlohmann::json() : read_baseline(baseline);
+  const double allowed = parse_allowed(fail_slower);
+  const nlohmann::json before = baseline.empty() ? nlohmann::json() : read_rays_baseline(baseline);
   const Device target = device.open();
   const std::vector<Scene> scenes = open_scenes({"rays-1k", "rays-100k", "rays-1m"});
   Progress progress("bench");
   RayBenchOptions options;
-  options.repeats = repeats;
+  options.repeats = repeats.value_or(options.repeats);
   options.plan.kernel_dir = kernel_dir;
   options.progress = [&](const std::string& text) { progress.update(text); };
   const nlohmann::json document = rays_document(bench_rays(target, scenes, options), target.info());
   if (common.wants_text()) print_result(rays_text(document));
   write_json(common.json, document);
-  if (before.is_null()) return ExitCode::done;
-  const std::vector<std::string> slower = slower_cells(document, before, allowed);
-  for (const std::string& cell : slower) log_error("beside {}: {}", baseline, cell);
-  return slower.empty() ? ExitCode::done : ExitCode::gate_failed;
+  return before.is_null() ? ExitCode::done : judge(worse_rays(document, before, allowed));
+}
+
+ExitCode BenchCommand::run_renders(const CommonOptions& common) const {
+  const double allowed = parse_allowed(fail_slower);
+  const RenderBench bench(scenes_asked, repeats, kernel_dir);
+  const nlohmann::json before =
+      baseline.empty() ? nlohmann::json() : read_render_baseline(baseline, bench.scenes());
+  const nlohmann::json document = bench.run(device);
+  if (common.wants_text()) print_result(renders_text(document));
+  write_json(common.json, document);
+  return before.is_null() ? ExitCode::done : judge(worse_renders(document, before, allowed));
 }
 
 ExitCode BenchCommand::run_sampler(const CommonOptions& common) const {
@@ -121,7 +87,7 @@ ExitCode BenchCommand::run_sampler(const CommonOptions& common) const {
   const Device target = device.open();
   Progress progress("bench");
   SamplerBenchOptions options;
-  options.repeats = repeats;
+  options.repeats = repeats.value_or(options.repeats);
   options.plan.kernel_dir = kernel_dir;
   options.progress = [&](const std::string& text) { progress.update(text); };
   const nlohmann::json document = sampler_document(
@@ -131,53 +97,11 @@ ExitCode BenchCommand::run_sampler(const CommonOptions& common) const {
   return ExitCode::done;
 }
 
-/// `bdpt`, or where it is blind to something or finds it by chance alone, `vcm`.
-static const Integrator& referee_of(const PackedScene& scene, std::optional<unsigned> max_depth) {
-  const Integrator& bdpt = find_integrator("bdpt");
-  const SceneOptics optics = optics_of(scene, max_depth);
-  const bool aims_at_all =
-      unreachable_paths(bdpt, optics).empty() && chance_paths(bdpt, optics).empty();
-  return aims_at_all ? bdpt : find_integrator("vcm");
-}
-
-ExitCode BenchCommand::run_methods(const CommonOptions& common) const {
-  std::vector<std::string> names{"cornell-box",
-                                 "four-balls-ceiling",
-                                 "four-balls-sun",
-                                 "four-balls-point",
-                                 "four-balls-background",
-                                 "veach-mis",
-                                 "glass-caustic",
-                                 "hidden-light-room",
-                                 "keyhole",
-                                 "mixed-room",
-                                 "glass-lamp",
-                                 "pool",
-                                 "mirror-caustic"};
-  if (!scenes_asked.empty()) names = scenes_asked;
-  std::vector<Scene> scenes = open_scenes(names);
-  std::vector<const Integrator*> methods{&find_integrator("path")};  // what gains are over
-  for (const Integrator& method : integrators())
-    if (&method != methods.front() && method.name != "reference")  // slow by design
-      methods.push_back(&method);
-  const Device target = device.open();
-  Progress progress("bench");
-  MethodBenchOptions options;
-  options.repeats = repeats;
-  options.plan.kernel_dir = kernel_dir;
-  options.progress = [&](const std::string& text) { progress.update(text); };
-  const nlohmann::json document = methods_document(
-      bench_methods(target, std::move(scenes), methods, referee_of, options), target.info());
-  if (common.wants_text()) print_result(methods_text(document));
-  write_json(common.json, document);
-  return ExitCode::done;
-}
-
 ExitCode BenchCommand::run_sorts(const CommonOptions& common) const {
   const Device target = device.open();
   Progress progress("bench");
   SortBenchOptions options;
-  options.repeats = repeats;
+  options.repeats = repeats.value_or(options.repeats);
   options.plan.kernel_dir = kernel_dir;
   options.progress = [&](const std::string& text) { progress.update(text); };
   const nlohmann::json document = sorts_document(bench_sorts(target, options), target.info());
@@ -193,10 +117,11 @@ ExitCode BenchCommand::run(const CommonOptions& common) const {
                      "." + did_you_mean(only, workloads));
   if (!scenes_asked.empty() && only == "rays")
     throw UsageError("--scene is for --only render and --only sampler");
-  if (!baseline.empty() && only != "rays") throw UsageError("--baseline is for --only rays");
+  if (!baseline.empty() && only != "rays" && only != "render")
+    throw UsageError("--baseline is for --only rays and --only render");
   if (only == "rays") return run_rays(common);
   if (only == "sort") return run_sorts(common);
-  return only == "render" ? run_methods(common) : run_sampler(common);
+  return only == "render" ? run_renders(common) : run_sampler(common);
 }
 
 }  // namespace
@@ -204,7 +129,8 @@ ExitCode BenchCommand::run(const CommonOptions& common) const {
 CommandRun setup_bench(CLI::App& app) {
   auto c = std::make_shared<BenchCommand>();
   app.add_option("--only", c->only,
-                 "which workload: rays (default); render: every method on every kind of scene; "
+                 "which workload: rays (default); render: every method on "
+                 "scenes of every hard kind; "
                  "sampler: what Sobol points are worth; sort: the photon grid beside sorts by the "
                  "host")
       ->type_name("rays|render|sampler|sort");
@@ -215,15 +141,17 @@ CommandRun setup_bench(CLI::App& app) {
   c->device.declare(app);
   c->device.declare_threads(app);
   app.add_option("--repeats", c->repeats,
-                 "runs of each cell; for render and sampler, seeds (default 7)")
+                 "runs of each cell; for render and sampler, seeds (default 7; of render 5)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--kernel-dir", c->kernel_dir, "read kernels from this folder")->type_name("DIR");
   app.add_option("--baseline", c->baseline, "an earlier --json result to compare with")
       ->type_name("FILE");
-  app.add_option("--fail-slower", c->fail_slower,
-                 "exit 1 if a cell is slower than the baseline by more (default 10%)")
+  app.add_option(
+         "--fail-slower", c->fail_slower,
+         "exit 1 if anything is slower than the baseline by more (default 10%); with --only "
+         "render also if an error grew beyond chance")
       ->type_name("FRACTION");
-  app.footer("Example: pellucid bench --only rays --json rays.json");
+  app.footer(render_bench_help() + "\n\nExample: pellucid bench --only rays --json rays.json");
   return [c](const CommonOptions& common) { return c->run(common); };
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/method_bench.h"
 #include "bench/ray_bench.h"
 #include "bench/sampler_bench.h"
 #include "bench/sort_bench.h"
@@ -113,41 +112,6 @@ std::string sampler_text(const nlohmann::json& d) {
   return text + fmt::format("geometric mean: {:.2f}x at equal spp, {:.2f}x at equal time\n",
                             geometric_mean(d["samplers"], "gain_equal_spp"),
                             geometric_mean(d["samplers"], "gain_equal_time"));
-}
-
-nlohmann::json methods_document(const std::vector<MethodCell>& cells, const DeviceInfo& device) {
-  using nlohmann::json;
-  json methods = json::array();
-  for (const MethodCell& c : cells)
-    methods.push_back({{"scene", c.scene},
-                       {"integrator", c.method},
-                       {"spp", c.spp},
-                       {"relmse", c.relmse},
-                       {"relmse_low", c.relmse_low},
-                       {"relmse_high", c.relmse_high},
-                       {"seconds", c.seconds},
-                       {"mrays_per_s", c.mrays_per_s},
-                       {"efficiency", c.efficiency},
-                       {"gain", c.gain}});
-  return {{"workload", "render-1"},
-          {"device", device.name},
-          {"driver", device.platform_name + " " + device.driver},
-          {"clock", device.cpu ? "cpu" : "wall"},
-          {"methods", methods}};
-}
-
-std::string methods_text(const nlohmann::json& d) {
-  std::string text =
-      fmt::format("{} ({} time)\n{:>22} {:>8} {:>5} {:>9} {:>19} {:>8} {:>8} {:>9}\n",
-                  d["device"].get<std::string>(), d["clock"].get<std::string>(), "scene", "method",
-                  "spp", "relMSE", "(of its runs)", "seconds", "Mrays/s", "gain");
-  for (const auto& c : d["methods"])
-    text += fmt::format(
-        "{:>22} {:>8} {:>5} {:>9.3g} {:>9.2g}-{:<9.2g} {:>8.3f} {:>8.2f} {:>8.2f}x\n",
-        c["scene"].get<std::string>(), c["integrator"].get<std::string>(), c["spp"].get<int>(),
-        c["relmse"].get<double>(), c["relmse_low"].get<double>(), c["relmse_high"].get<double>(),
-        c["seconds"].get<double>(), c["mrays_per_s"].get<double>(), c["gain"].get<double>());
-  return text + "gain: efficiency 1 / (relMSE x seconds) over that of path\n";
 }
 
 nlohmann::json sorts_document(const std::vector<SortCell>& cells, const DeviceInfo& device) {

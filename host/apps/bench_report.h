@@ -16,8 +16,12 @@ struct SortCell;
 nlohmann::json rays_document(const RayBench& bench, const DeviceInfo& device);
 std::string rays_text(const nlohmann::json& document);
 
-nlohmann::json methods_document(const std::vector<MethodCell>& cells, const DeviceInfo& device);
-std::string methods_text(const nlohmann::json& document);
+/// One device's part of the document: its facts, and a cell for every scene and method; scores
+/// where `whole`, all workloads, are there.
+nlohmann::json device_document(const std::vector<MethodCell>& cells, const DeviceInfo& device,
+                               bool whole);
+/// Of all devices: tables that read well in an issue.
+std::string renders_text(const nlohmann::json& document);
 
 nlohmann::json sampler_document(const std::vector<SamplerCell>& cells, const DeviceInfo& device);
 std::string sampler_text(const nlohmann::json& document);

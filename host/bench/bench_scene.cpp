@@ -7,13 +7,22 @@
 #include "render/launch.h"
 
 namespace pellucid {
+namespace {
+
+/// What the seconds of a CPU device are shared among: its driver's threads, if there are cores for
+/// them.
+int threads_of(const DeviceInfo& device) {
+  return int(std::max(1u, std::min(device.compute_units, std::thread::hardware_concurrency())));
+}
+
+}  // namespace
 
 BenchScene::BenchScene(const Device& device, Scene scene, int size, const PlanOptions& plan)
     : device_(device),
       scene_(std::move(scene)),
       size_(size),
       plan_(plan),
-      clock_{device.info().cpu, int(std::max(1u, std::thread::hardware_concurrency()))} {
+      clock_{device.info().cpu, threads_of(device.info())} {
   scene_.settings.width = scene_.settings.height = size;
   scene_.settings.filter = PixelFilter::box;
   packed_ = pack_scene(scene_, {simd_width_for(device.info())});
@@ -44,6 +53,8 @@ BenchRun BenchScene::render(const Integrator& method, Sampler sampler, std::uint
   run.rgb = film_image(session.film(), false, false).data;
   run.relmse_estimate = summary.relmse;
   run.rays = summary.rays;
+  run.kernel_seconds = session.kernel_seconds();
+  for (const PassState& p : session.plan().passes()) run.passes[p.pass.name] += p.time->seconds;
   return run;
 }
 

@@ -1,7 +1,9 @@
 // A scene made ready to be rendered again and again, with error and time of every run.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/clock.h"
@@ -14,6 +16,8 @@ struct BenchRun {
   double relmse_estimate = 0;  ///< by the film itself
   double seconds = 0;          ///< of all cores together
   std::uint64_t rays = 0;
+  double kernel_seconds = 0;             ///< until kernels were ready
+  std::map<std::string, double> passes;  ///< seconds by the device's clock
 };
 
 class BenchScene {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/markdown.h"
 #include "base/text.h"
 #include "study/report_facts.h"
 #include "study/report_text.h"
@@ -17,41 +18,6 @@ namespace {
 constexpr double NEAR_RUNG = 1.5;
 
 using Row = std::vector<std::string>;
-
-/// In one line and without what Markdown reads as a column's end.
-std::string cell(const std::string& text) {
-  std::string clean;
-  for (char c : text) {
-    if (c == '|') clean += '\\';
-    clean += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return clean;
-}
-
-/// Letters, not bytes, of UTF-8.
-std::size_t letters(const std::string& text) {
-  return std::size_t(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-std::string markdown_table(std::vector<Row> rows) {
-  std::vector<std::size_t> widths(rows.front().size(), 3);
-  for (Row& row : rows)
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      row[c] = cell(row[c]);
-      widths[c] = std::max(widths[c], letters(row[c]));
-    }
-  std::string text;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (std::size_t c = 0; c < rows[r].size(); ++c)
-      text += "| " + rows[r][c] + std::string(widths[c] - letters(rows[r][c]) + 1, ' ');
-    text += "|\n";
-    if (r > 0) continue;
-    for (std::size_t width : widths) text += "|" + std::string(width + 2, '-');
-    text += "|\n";
-  }
-  return text;
-}
 
 std::string option_table(const Study& study) {
   const std::vector<double> times = round_times(study);
@@ -93,7 +59,7 @@ std::string pair_table(const Study& study) {
 std::string bullets(const std::string& title, const std::vector<std::string>& items) {
   if (items.empty()) return "";
   std::string text = "\n" + title + "\n\n";
-  for (const std::string& item : items) text += "- " + cell(item) + "\n";
+  for (const std::string& item : items) text += "- " + markdown_line(item) + "\n";
   return text;
 }
 
@@ -130,9 +96,9 @@ std::string error_near(const StudyOption& option, double seconds) {
 }
 
 std::string study_table(const Study& study) {
-  std::string text = "# What accuracy costs: " + cell(study.scene) + "\n\n";
-  text += study.recommendation.empty() ? "No recommendation." : cell(study.recommendation);
-  text += "\n\n" + cell(settings_line(study)) + ".\n";
+  std::string text = "# What accuracy costs: " + markdown_line(study.scene) + "\n\n";
+  text += study.recommendation.empty() ? "No recommendation." : markdown_line(study.recommendation);
+  text += "\n\n" + markdown_line(settings_line(study)) + ".\n";
   if (!study.complete) text += "\nStopped early: what follows rests on the runs made until then.\n";
   text += bullets("Warnings:", study.warnings);
   if (!study.options.empty()) {
@@ -147,7 +113,7 @@ std::string study_table(const Study& study) {
         "\nPrecisions are compared with strict arithmetic by the same seeds; t* is where strict "
         "noise meets the bias.\n";
   text += bullets("Reference:", reference_lines(study.reference));
-  text += "\nMachine: " + cell(machine_line(study.machine)) + ".\n";
+  text += "\nMachine: " + markdown_line(machine_line(study.machine)) + ".\n";
   text += bullets("What would change this verdict:", study.would_change);
   return text;
 }
