@@ -12,6 +12,7 @@
 #include "apps/command.h"
 #include "apps/common.h"
 #include "base/log.h"
+#include "base/phase_clock.h"
 #include "base/signals.h"
 #include "base/text.h"
 #include "base/version.h"
@@ -216,6 +217,7 @@ ExitCode guarded_run(const Arguments& arguments) {
 }  // namespace pellucid
 
 int main(int argc, char** argv) {
+  pellucid::process_clock();
   pellucid::prepare_process();
   return static_cast<int>(pellucid::guarded_run({argv + 1, argv + argc}));
 }

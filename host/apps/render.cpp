@@ -16,6 +16,7 @@
 #include "apps/scene_input.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/phase_clock.h"
 #include "base/signals.h"
 #include "base/text.h"
 #include "base/timer.h"
@@ -46,7 +47,6 @@ class RenderJob {
 
   const RenderFlags& flags_;
   const CommonOptions& common_;
-  Timer total_;
   StopSignal stop_;
   Scene scene_;
   Integrator method_;  ///< with layers
@@ -82,6 +82,7 @@ void RenderJob::check_outputs() const {
 
 /// Loads the scene and settles what will be rendered.
 void RenderJob::prepare() {
+  const PhaseScope phase(Phase::load);
   flags_.check();
   flags_.device.limit();
   scene_ = open_scene(flags_.scene, flags_.load_options());
@@ -100,6 +101,7 @@ void RenderJob::prepare() {
 
 /// The film of the checkpoint that --resume names, if it is there.
 std::optional<Film> RenderJob::resumed_film() {
+  const PhaseScope phase(Phase::checkpoint);
   if (flags_.checkpoint.empty() || !std::filesystem::exists(flags_.checkpoint)) {
     if (flags_.resume) log_info("'{}' does not exist yet: a new render", flags_.checkpoint);
     return std::nullopt;
@@ -129,7 +131,7 @@ void RenderJob::write_pictures_of(const Film& film) {
   Image image = film_image(film, asked("variance"), asked("samples"));
   add_channels(image, aovs_);
   image.metadata = lasting_evidence(facts_);
-  add_progress(film, facts_.film, facts_.session->counters(), facts_.seconds.render,
+  add_progress(film, facts_.film, facts_.session->counters(), facts_.render_seconds,
                image.metadata);
   if (facts_.session->error()) add_error(film, *facts_.session->error(), image.metadata);
   if (flags_.deterministic) make_deterministic(image.metadata);
@@ -137,17 +139,19 @@ void RenderJob::write_pictures_of(const Film& film) {
 }
 
 void RenderJob::write_checkpoint_of(const Film& film) {
+  const PhaseScope phase(Phase::checkpoint);
   Evidence evidence = lasting_evidence(facts_);
   if (facts_.session->error()) add_error(film, *facts_.session->error(), evidence);
   write_checkpoint(
       flags_.checkpoint, film,
-      {identity(facts_), evidence, facts_.session->counters(), facts_.seconds.render, aovs_});
+      {identity(facts_), evidence, facts_.session->counters(), facts_.render_seconds, aovs_});
 }
 
 /// Writes the checkpoint and, if wanted, the pictures; if one fails, the others are still written.
 void RenderJob::write(const Film& film, bool pictures) {
+  const PhaseScope phase(Phase::write);
   if (pictures) facts_.film = summarise(film);
-  facts_.seconds.render =
+  facts_.render_seconds =
       facts_.session->render_seconds() + (earlier_ ? earlier_->facts.seconds : 0.0);
   std::exception_ptr first;
   const auto attempt = [&](const auto& step) {
@@ -169,6 +173,7 @@ void RenderJob::write(const Film& film, bool pictures) {
 /// False if stopped early.
 bool RenderJob::render_aov_channels(const Device& target) {
   if (flags_.aovs.empty()) return true;
+  const PhaseScope phase(Phase::aov);
   Progress progress("rendering AOVs");
   std::vector<Counter> counters = make_counters();
   const auto stop = [&] {
@@ -187,6 +192,7 @@ bool RenderJob::render_aov_channels(const Device& target) {
 /// Renders with progress and signals; false if stopped early. Writes the picture on SIGUSR1 and the
 /// checkpoint from time to time.
 bool RenderJob::render(Session& session) {
+  const PhaseScope phase(Phase::render);
   Progress progress(fmt::format("{} on {}", facts_.integrator->name, facts_.device->spec()));
   const double period = flags_.checkpoint_period();
   Timer since_checkpoint;
@@ -211,12 +217,13 @@ bool RenderJob::render(Session& session) {
 }
 
 ExitCode RenderJob::finish(bool complete) {
+  const PhaseScope phase(Phase::write);
   const RenderFacts& f = facts_;
   const double paths = double(f.film.iterations) * double(f.options.window().pixels());
   log_info("{} spp of {}x{} by {} in {}: {:.2f} Mpaths/s, {:.2f} Mrays/s{}", f.film.iterations,
            f.options.window().width, f.options.window().height, f.integrator->name,
-           format_seconds(f.seconds.render), 1e-6 * paths / f.seconds.render,
-           1e-6 * double(f.film.rays) / f.seconds.render,
+           format_seconds(f.render_seconds), 1e-6 * paths / f.render_seconds,
+           1e-6 * double(f.film.rays) / f.render_seconds,
            std::isfinite(f.film.relmse)
                ? fmt::format(", noise about {:.2g} %", 100 * std::sqrt(f.film.relmse))
                : "");
@@ -250,6 +257,7 @@ ExitCode RenderJob::finish(bool complete) {
 
 ExitCode RenderJob::run() {
   prepare();
+  const PhaseScope rest(Phase::device);  // and whatever is in no other
   std::optional<Film> start = resumed_film();
   // A broken installation must show before the render, not after it; loading takes as long as
   // opening the device and finding kernels in the cache, so it goes on beside them.
@@ -259,10 +267,9 @@ ExitCode RenderJob::run() {
   const RenderOptions& o = facts_.options;
   plan_memory(target.info(), {}, *facts_.integrator, o);
   facts_.device = &target.info();
-  facts_.seconds.load = total_.seconds();
 
-  Timer phase;
   const PackedScene packed = [&] {
+    const PhaseScope phase(Phase::bvh);
     Progress progress("building BVH");
     return pack_scene(scene_, {simd_width_for(target.info())});
   }();
@@ -273,29 +280,23 @@ ExitCode RenderJob::run() {
     tell_plan(facts_, flags_.results(names_), common_);
     return ExitCode::done;
   }
-  facts_.seconds.bvh = phase.seconds();
   if (!render_aov_channels(target)) {
     log_warn("stopped early, in the AOVs and before the first pass: nothing is written");
     return ExitCode::stopped;
   }
   if (earlier_) add_missing(aovs_, earlier_->facts.aovs);
   auto session = [&] {
+    const PhaseScope phase(Phase::film);  // but for kernels
     Progress progress("building kernels");
     return Session(target, packed, *facts_.integrator, facts_.options, std::move(start));
   }();
   facts_.session = &session;
   if (earlier_) session.add_counters(earlier_->facts.counters);
   stop_.reinstall();
-  facts_.seconds.kernels = session.kernel_seconds();
-  phase = Timer();
   image_library.get();
-  facts_.seconds.load += phase.seconds();
 
   const bool complete = render(session);
-  phase = Timer();
   write(session.film(), true);
-  facts_.seconds.write = phase.seconds();
-  facts_.seconds.total = total_.seconds();
   return finish(complete);
 }
 

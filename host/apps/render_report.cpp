@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/scene_report.h"
+#include "base/phase_clock.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "integrators/registry.h"
@@ -212,6 +213,16 @@ std::string error_verdict(const ErrorEstimate& error) {
                      error.reached() ? "reached" : "not reached", known);
 }
 
+/// Of this process until now: parts, which add up, and `total`.
+static nlohmann::json phase_seconds() {
+  const PhaseClock& clock = process_clock();
+  nlohmann::json seconds{{"total", clock.total()}};
+#define X(name, meaning) seconds[#name] = clock.seconds(Phase::name);
+  PHASES(X)
+#undef X
+  return seconds;
+}
+
 nlohmann::json render_stats(const RenderFacts& f) {
   using nlohmann::json;
   json counters = json::object();
@@ -228,6 +239,9 @@ nlohmann::json render_stats(const RenderFacts& f) {
       (*same)["launches"] = (*same)["launches"].get<std::uint64_t>() + p.time->launches;
     }
   }
+  double in_passes = 0;
+  for (const json& pass : passes) in_passes += pass["seconds"].get<double>();
+  const json seconds = phase_seconds();
   const double pixels = double(f.options.window().pixels());
   return {{"scene", f.scene->name},
           {"scene_hash", f.scene_hash},
@@ -239,14 +253,10 @@ nlohmann::json render_stats(const RenderFacts& f) {
           {"paths", std::uint64_t(pixels) * f.film.iterations},
           {"rays", f.film.rays},
           {"mean", f.film.mean},
-          {"seconds",
-           {{"load", f.seconds.load},
-            {"bvh", f.seconds.bvh},
-            {"kernels", f.seconds.kernels},
-            {"render", f.seconds.render},
-            {"write", f.seconds.write},
-            {"total", f.seconds.total}}},
+          {"seconds", seconds},
+          {"render_seconds", f.render_seconds},
           {"passes", passes},
+          {"outside_passes", seconds["render"].get<double>() - in_passes},
           {"features", feature_flags(f.session->plan().specialisation().features, all_features())},
           {"counters", counters},
           {"unreachable", unreachable_paths(*f.integrator, f.optics())},

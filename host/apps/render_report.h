@@ -12,11 +12,6 @@
 
 namespace pellucid {
 
-/// Where the wall time went, in seconds.
-struct RenderSeconds {
-  double load = 0, bvh = 0, kernels = 0, render = 0, write = 0, total = 0;
-};
-
 /// Everything the report tells about a finished (or stopped) render.
 struct RenderFacts {
   const Scene* scene = nullptr;
@@ -27,7 +22,7 @@ struct RenderFacts {
   RenderOptions options;
   std::string scene_hash, kernels_hash;
   FilmSummary film;
-  RenderSeconds seconds;
+  double render_seconds = 0;  ///< of all passes of the film, those of earlier runs included
 
   /// What decides which paths the method can see. Needs the scene packed.
   SceneOptics optics() const { return optics_of(*packed, options.max_depth); }

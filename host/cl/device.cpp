@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "base/error.h"
+#include "base/phase_clock.h"
 #include "base/text.h"
 #include "cl/opencl.h"
 
@@ -151,6 +152,7 @@ void Device::write(const Buffer& buffer, const void* data, std::size_t bytes) {
 
 Kernel Device::build(const std::string& name, const std::string& source,
                      const std::string& options) {
+  const PhaseScope phase(Phase::kernels);
   Kernel out;
   out.name_ = name;
   out.impl_ = std::make_shared<Kernel::Impl>();

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/phase_clock.h"
 #include "shared/film_sums.h"
 
 namespace pellucid {
@@ -141,6 +142,7 @@ Film::Sums Film::sums(std::size_t pixel) const {
 }
 
 FilmSummary summarise(const Film& film) {
+  const PhaseScope phase(Phase::film);
   FilmSummary out;
   out.iterations = film.passes.count();
   const Statistics statistics(film);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/phase_clock.h"
 #include "render/launch.h"
 #include "render/memory.h"
 #include "shared/buffers.h"
@@ -150,6 +151,7 @@ void Plan::bind(PassState& state) {
 }
 
 void Plan::warm_up() {
+  const PhaseScope phase(Phase::kernels);
   // Drivers generate code at the first launch of a kernel, per group size and kind of grid: launch
   // with the real sizes on an image of no pixels.
   const Launch nothing{};
@@ -210,14 +212,17 @@ void Plan::enqueue(Launch launch) {
 }
 
 void Plan::read_film(FilmPixel* film, std::size_t pixels) {
+  const PhaseScope phase(Phase::film);
   device_.read(buffers_.at("film"), film, pixels * sizeof(FilmPixel));
 }
 
 void Plan::write_film(const FilmPixel* film, std::size_t pixels) {
+  const PhaseScope phase(Phase::film);
   device_.write(buffers_.at("film"), film, pixels * sizeof(FilmPixel));
 }
 
 void Plan::read_layers(Layers& layers, std::size_t first, std::size_t pixels) {
+  const PhaseScope phase(Phase::film);
   const std::size_t stride = layers.words_per_pixel();
   if (layers.set)
     device_.read(buffers_.at("layers"), &layers.words[first * stride],
@@ -225,6 +230,7 @@ void Plan::read_layers(Layers& layers, std::size_t first, std::size_t pixels) {
 }
 
 void Plan::write_layers(const Layers& layers, std::size_t first, std::size_t pixels) {
+  const PhaseScope phase(Phase::film);
   const std::size_t stride = layers.words_per_pixel();
   if (layers.set)
     device_.write(buffers_.at("layers"), &layers.words[first * stride],

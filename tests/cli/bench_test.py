@@ -29,6 +29,72 @@ def check(condition, what, *details):
         print("FAILED:", what, *details, sep="\n  ")
 
 
+def render(*arguments, repeats=3):
+    done = subprocess.run([PELLUCID, "bench", "--only", "render", "--scene", "sphere-light", "--repeats", str(repeats),
+                           "--json", "-", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          timeout=500)
+    return done.returncode, done.stdout, done.stderr
+
+
+def check_renders(baseline):
+    """The render workload on one quick scene: figures, and what the gate makes of them."""
+    code, out, err = render()
+    check(code == 0, "exit code of the render workload", err)
+    result = json.loads(out)
+    device = result["devices"][0]
+    cells = device["methods"]
+    check(result["workload"].startswith("render-") and list(result["scenes"]) == ["sphere-light"], "workload", out)
+    check(not device["scores"], "one scene makes no score", device["scores"])
+    check([c["integrator"] for c in cells] == ["path", "naive", "nee", "light", "bdpt", "sppm", "bpm", "vcm"],
+          "methods", cells)
+    for cell in cells:
+        for key in ("relmse", "seconds", "mrays_per_s", "samples_per_s", "kernel_seconds"):
+            check(cell[key] > 0, key, cell)
+        check(cell["samples_per_s_best"] >= cell["samples_per_s"], "the best run is no slower", cell)
+        check(len(cell["relmse_runs"]) == 3, "every run is told", cell)
+        check(0 < sum(cell["pass_seconds"].values()) and min(cell["pass_seconds"].values()) >= 0, "passes", cell)
+        check(abs(cell["efficiency"] * cell["relmse"] * cell["seconds"] - 1) < 1e-6, "efficiency", cell)
+        check(abs(cell["gain"] - cell["efficiency"] / cells[0]["efficiency"]) < 1e-6 * cell["gain"],
+              "gain is over path", cell)
+        at_equal_time = cell["relmse"] * cell["seconds"] / cells[0]["seconds"]
+        check(abs(cell["relmse_equal_time"] / at_equal_time - 1) < 1e-6, "error at equal time", cell)
+
+    def gate(change, *arguments, repeats=3):
+        """The gate beside this very result, changed; slow machines are no matter unless asked for."""
+        changed = json.loads(out)
+        change(changed["devices"][0])
+        baseline.write_text(json.dumps(changed))
+        code, _, err = render("--baseline", str(baseline), *(arguments or ("--fail-slower", "99%")), repeats=repeats)
+        return code, err
+
+    code, err = gate(lambda device: None)
+    check(code == 0, "what did not change holds: errors are the same, bit for bit", code, err)
+
+    def better_vcm(device):
+        device["methods"][-1]["relmse_runs"] = [e / 1e4 for e in device["methods"][-1]["relmse_runs"]]
+
+    code, err = gate(better_vcm)
+    check(code == 1 and err.count("beyond chance") == 1 and "vcm on sphere-light: relMSE" in err,
+          "an error that grew fails", code, err)
+
+    def faster_path(device):
+        device["methods"][0]["samples_per_s_best"] *= 1e4
+
+    code, err = gate(faster_path, "--fail-slower", "99%")
+    check(code == 1 and err.count("slower") == 1 and "path on sphere-light" in err, "so does a speed", code, err)
+
+    def other(device):
+        device["device"] = "another one"
+
+    code, err = gate(other, repeats=1)
+    check(code == 1 and "lacks it" in err, "a device without a baseline", code, err)
+    for text, what in (({**result, "workload": "render-1"}, "no result of"), ({**result, "scenes": {}}, "sphere-light"),
+                       ({**result, "devices": []}, "devices"), ({**result, "devices": [{"device": 1}]}, "device")):
+        baseline.write_text(json.dumps(text))
+        code, _, err = render("--baseline", str(baseline))
+        check(code == 3 and what in err and "bench --only render" in err, "a baseline that is none", code, err)
+
+
 with tempfile.TemporaryDirectory() as folder:
     baseline = pathlib.Path(folder, "baseline.json")
     code, out, err = run("--json", "-")
@@ -76,17 +142,7 @@ with tempfile.TemporaryDirectory() as folder:
     # Errors, unlike times, are the same in every run.
     gain = math.prod(c["gain_equal_spp"] for c in cells) ** (1 / len(cells))
     check(gain > 1.1, "sobol is worth something", gain, cells)
-    done = subprocess.run([PELLUCID, "bench", "--only", "render", "--scene", "sphere-light", "--repeats", "2",
-                           "--json", "-"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          timeout=500)
-    check(done.returncode == 0, "exit code of the render workload", done.stderr)
-    cells = json.loads(done.stdout)["methods"]
-    check([c["integrator"] for c in cells] == ["path", "naive", "nee", "light", "bdpt", "sppm", "bpm", "vcm"], "methods", cells)
-    for cell in cells:
-        check(cell["relmse"] > 0 and cell["seconds"] > 0 and cell["mrays_per_s"] > 0, "figures", cell)
-        check(abs(cell["efficiency"] * cell["relmse"] * cell["seconds"] - 1) < 1e-6, "efficiency", cell)
-        check(abs(cell["gain"] - cell["efficiency"] / cells[0]["efficiency"]) < 1e-6 * cell["gain"],
-              "gain is over path", cell)
+    check_renders(baseline)
     done = subprocess.run([PELLUCID, "bench", "--only", "sort", "--repeats", "1", "--json", "-"],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=500)
     check(done.returncode == 0, "exit code of the sort workload", done.stderr)
