@@ -77,16 +77,21 @@ std::string gains_table(const json& cells) {
   return markdown_table(rows, 1);
 }
 
+/// Those that matter.
 std::string passes_text(const json& passes) {
+  constexpr double least_share = 0.05;
+  double sum = 0;
+  for (const json& seconds : passes) sum += seconds.get<double>();
   std::vector<std::string> words;
   for (const auto& [pass, seconds] : passes.items())
-    words.push_back(fmt::format("{} {:.3g}", pass, 1e3 * seconds.get<double>()));
+    if (seconds.get<double>() >= least_share * sum)
+      words.push_back(fmt::format("{} {:.3g}", pass, 1e3 * seconds.get<double>()));
   return join(words);
 }
 
 std::string cells_table(const json& cells) {
   Rows rows{{"scene", "method", "spp", "Mpaths/s", "Mrays/s", "seconds", "relMSE", "at equal time",
-             "build s", "ms of passes"}};
+             "build s", "ms of passes, 5 % and more"}};
   for (const json& cell : cells) {
     std::vector<std::string> row{cell.at("scene"), cell.at("integrator"),
                                  std::to_string(cell.at("spp").get<int>())};

@@ -30,11 +30,7 @@ void attempt(MethodCell& cell, const Step& step) {
 
 void add_run(MethodCell& cell, const BenchRun& reference, const BenchRun& run, int repeats) {
   const double error = relmse_to(reference, run);
-  if (!(error > 0)) {  // NaN as well
-    cell.failed = fmt::format("its error, {:.2g}, cannot be told from the reference's", error);
-    return;
-  }
-  cell.relmse_runs.push_back(error);
+  cell.relmse_runs.push_back(error + reference.relmse_estimate);
   cell.relmse += error / repeats;
   cell.seconds += run.seconds / repeats;
   cell.seconds_least = std::min(cell.seconds_least, run.seconds);
@@ -44,10 +40,14 @@ void add_run(MethodCell& cell, const BenchRun& reference, const BenchRun& run, i
 
 /// What follows from all runs; `first`: of the first method.
 void conclude(MethodCell& cell, const MethodCell& first) {
+  if (cell.failed.empty() && !(cell.relmse > 0))  // NaN as well
+    cell.failed =
+        fmt::format("its error, {:.2g}, cannot be told from the reference's", cell.relmse);
   if (!cell.failed.empty()) return;
   const double n = double(cell.relmse_runs.size());
-  double square = 0;
-  for (double e : cell.relmse_runs) square += (e - cell.relmse) * (e - cell.relmse);
+  double mean = 0, square = 0;
+  for (double e : cell.relmse_runs) mean += e / n;
+  for (double e : cell.relmse_runs) square += (e - mean) * (e - mean);
   if (n > 1) cell.relmse_error = std::sqrt(square / (n - 1) / n);
   cell.efficiency = 1 / (cell.relmse * cell.seconds);
   if (!first.failed.empty()) return;
@@ -97,7 +97,7 @@ std::vector<MethodCell> bench_one(const BenchScene& scene,
                 o.repeats);
       });
     }
-  for (MethodCell& cell : cells) conclude(cell, cells.front());
+  for (MethodCell& cell : cells) conclude(cell, cells.front());  // the first one first
   return cells;
 }
 

@@ -20,10 +20,12 @@ struct MethodCell {
   std::string failed;    ///< why there are no figures; else empty
   bool sees_all = true;  ///< no class of paths is out of the method's reach
   std::uint64_t spp = 0;
-  std::vector<double> relmse_runs;  ///< by seed: the same on every run of the same program
-  double relmse = 0;                ///< their mean, against the reference
-  double relmse_error = 0;          ///< one standard error of that mean; 0 of a single run
-  double seconds = 0;               ///< of a run, on all cores together; mean
+  /// By seed, against the reference and with its own error: the same on every run of the same
+  /// program.
+  std::vector<double> relmse_runs;
+  double relmse = 0;           ///< their mean, less the reference's own
+  double relmse_error = 0;     ///< one standard error of that mean; 0 of a single run
+  double seconds = 0;          ///< of a run, on all cores together; mean
   double seconds_least = 0;    ///< of the fastest run: what others on the machine disturb least
   double paths = 0, rays = 0;  ///< of a run
   double kernel_seconds = 0;   ///< building kernels at first; the driver may have had them cached

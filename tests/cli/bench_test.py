@@ -30,7 +30,7 @@ def check(condition, what, *details):
 
 
 def render(*arguments, repeats=3):
-    done = subprocess.run([PELLUCID, "bench", "--only", "render", "--scene", "sphere-light", "--repeats", str(repeats),
+    done = subprocess.run([PELLUCID, "bench", "--only", "render", "--scene", "veach-mis", "--repeats", str(repeats),
                            "--json", "-", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                           timeout=500)
     return done.returncode, done.stdout, done.stderr
@@ -43,7 +43,7 @@ def check_renders(baseline):
     result = json.loads(out)
     device = result["devices"][0]
     cells = device["methods"]
-    check(result["workload"].startswith("render-") and list(result["scenes"]) == ["sphere-light"], "workload", out)
+    check(result["workload"].startswith("render-") and list(result["scenes"]) == ["veach-mis"], "workload", out)
     check(not device["scores"], "one scene makes no score", device["scores"])
     check([c["integrator"] for c in cells] == ["path", "naive", "nee", "light", "bdpt", "sppm", "bpm", "vcm"],
           "methods", cells)
@@ -59,36 +59,19 @@ def check_renders(baseline):
         at_equal_time = cell["relmse"] * cell["seconds"] / cells[0]["seconds"]
         check(abs(cell["relmse_equal_time"] / at_equal_time - 1) < 1e-6, "error at equal time", cell)
 
-    def gate(change, *arguments, repeats=3):
-        """The gate beside this very result, changed; slow machines are no matter unless asked for."""
-        changed = json.loads(out)
-        change(changed["devices"][0])
-        baseline.write_text(json.dumps(changed))
-        code, _, err = render("--baseline", str(baseline), *(arguments or ("--fail-slower", "99%")), repeats=repeats)
-        return code, err
-
-    code, err = gate(lambda device: None)
-    check(code == 0, "what did not change holds: errors are the same, bit for bit", code, err)
-
-    def better_vcm(device):
-        device["methods"][-1]["relmse_runs"] = [e / 1e4 for e in device["methods"][-1]["relmse_runs"]]
-
-    code, err = gate(better_vcm)
-    check(code == 1 and err.count("beyond chance") == 1 and "vcm on sphere-light: relMSE" in err,
-          "an error that grew fails", code, err)
-
-    def faster_path(device):
-        device["methods"][0]["samples_per_s_best"] *= 1e4
-
-    code, err = gate(faster_path, "--fail-slower", "99%")
-    check(code == 1 and err.count("slower") == 1 and "path on sphere-light" in err, "so does a speed", code, err)
-
-    def other(device):
-        device["device"] = "another one"
-
-    code, err = gate(other, repeats=1)
-    check(code == 1 and "lacks it" in err, "a device without a baseline", code, err)
-    for text, what in (({**result, "workload": "render-1"}, "no result of"), ({**result, "scenes": {}}, "sphere-light"),
+    # Beside this very result, with vcm's errors and the speed of `path` made better: only these two are
+    # told, since all other errors are the same, bit for bit, and 99 % forgives a busy machine.
+    changed = json.loads(out)
+    path, vcm = (changed["devices"][0]["methods"][i] for i in (0, -1))
+    path["samples_per_s_best"] *= 1e4
+    vcm["relmse_runs"] = [e / 1e6 for e in vcm["relmse_runs"]]
+    baseline.write_text(json.dumps(changed))
+    code, _, err = render("--baseline", str(baseline), "--fail-slower", "99%")
+    lines = [line for line in err.splitlines() if "beside" in line]
+    check(code == 1 and len(lines) == 2, "what got worse fails, and nothing else", code, err)
+    check(any("path on veach-mis" in line and "slower" in line for line in lines), "a speed", err)
+    check(any("vcm on veach-mis: relMSE" in line and "beyond chance" in line for line in lines), "an error", err)
+    for text, what in (({**result, "workload": "render-1"}, "no result of"), ({**result, "scenes": {}}, "veach-mis"),
                        ({**result, "devices": []}, "devices"), ({**result, "devices": [{"device": 1}]}, "device")):
         baseline.write_text(json.dumps(text))
         code, _, err = render("--baseline", str(baseline))
