@@ -14,7 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 sys.dont_write_bytecode = True
 # pylint: disable=wrong-import-position
-from harness import SOURCE, check, expect, read_bytes, run, run_tests, write_text
+from harness import SOURCE, check, document, expect, read_bytes, run, run_tests, write_text
 
 EVERYTHING = os.path.join(SOURCE, "tests", "support", "everything")
 ODD = ["nan", "inf", "-inf", "-1", "0", "1e38", "1e400", "", "x", "1 ", "\u00e9", "%s%n"]
@@ -184,9 +184,30 @@ def test_baselines():
     for bad in texts:
         write_text("baseline.json", bad)
         attempt(["bench", "--baseline", "baseline.json", *NO_DEVICE], 3,
-                parts=["baseline.json", "bench --json"])
+                parts=["baseline.json", "bench --only rays --json"])
     for name, what in (("gone.json", "No such file"), (".", "directory"), ("/dev/zero", "a device")):
         attempt(["bench", "--baseline", name, *NO_DEVICE], 3, parts=[name, what])
+
+
+def test_render_baselines():
+    command = ["bench", "--only", "render", "--scene", "room.json", "--baseline", "baseline.json", *NO_DEVICE]
+    cell = {"scene": "room", "integrator": "path", "samples_per_s_best": 1.5, "relmse_runs": [0.5, 0.25]}
+    score = {"name": "render-2/path", "score": 1.5, "low": 1.25}
+    device = {"device": "d", "driver": "e", "methods": [cell], "scores": [score]}
+    whole = {"workload": "render-2", "scenes": {"room": document(["info", "room.json"])["hash"]},
+             "devices": [device]}
+    write_text("baseline.json", json.dumps(whole))
+    attempt(command, 4)
+    odd = [1, "x", None, [], {}, [1]]
+    wrong = [dict(whole, **{key: value}) for key in whole for value in odd]
+    for part, make in ((device, lambda d: [d]), (cell, lambda c: [dict(device, methods=[c])]),
+                       (score, lambda s: [dict(device, scores=[s])])):
+        changed = [{k: v for k, v in part.items() if k != key} for key in part]
+        changed += [dict(part, **{key: value}) for key in part for value in (None, {}, [{}])]
+        wrong += [dict(whole, devices=make(entry)) for entry in changed]
+    for value in wrong:
+        write_text("baseline.json", json.dumps(value))
+        attempt(command, 3, parts=["baseline.json", "bench --only render --json"])
 
 
 def test_pictures():
