@@ -85,6 +85,11 @@ bool Judge::floors() const {
 
 void Judge::measure_time() {
   const double relmse = study_.target * study_.target;
+  if (curve_.front().relmse <= relmse) {  // shorter runs than the first rung there are not
+    v_.kind = TargetKind::measured;
+    v_.seconds = v_.low = v_.high = curve_.front().seconds;
+    return;
+  }
   const auto time = jackknife(runs(), [&](int leave) -> std::optional<double> {
     const std::vector<CurvePoint> curve = mean_curve(option_.runs, leave);
     const std::optional<double> t = crossing(curve, fit(curve), relmse);
@@ -123,9 +128,11 @@ Verdict Judge::verdict() {
     const CurveFit all = fit(curve_);
     v_.noise = all.noise, v_.exponent = all.exponent, v_.bias = all.bias;
     v_.fit_residual = all.residual;
-    measure_slope();
+    // Below the reference's own noise neither slope nor spread is the method's.
+    const bool told = curve_.back().relmse > study_.reference.relmse;
+    if (told) measure_slope();
     check_energy(study_, option_, v_);
-    check_spread(option_, v_);
+    if (told) check_spread(option_, v_);
     measure_time();
   }
   if (option_.wrong > 0)

@@ -216,6 +216,18 @@ TEST(StudyAnalysis, no_number_is_refused) {
   EXPECT_THROW(analyse(reference.study()), InputError);
 }
 
+TEST(StudyAnalysis, an_error_below_the_target_from_the_start) {
+  for (double sigma2 : {0.0, 1e-4}) {
+    World world(9050);
+    world.add({"nee", sigma2, 0.01});
+    analyse(world.study());
+    const Verdict& v = world.study().verdicts[0];
+    EXPECT_EQ(v.kind, TargetKind::measured);
+    EXPECT_NEAR(v.seconds, 0.16, 0.01);
+    EXPECT_EQ(world.study().recommended, 0) << (v.flags.empty() ? "" : v.flags[0]);
+  }
+}
+
 TEST(StudyAnalysis, a_floor_above_the_target_is_never_passed) {
   World world(9000);
   StudyOption& option = world.add({"path", 0.01, 0.01, 0.0009});  // 3 % of bias, 2 % asked for
