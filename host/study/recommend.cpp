@@ -111,16 +111,17 @@ void Chooser::tell_conditions() {
     s_.would_change.push_back(
         fmt::format("Its time is extrapolated x{:.2g}: a budget of about {} would measure it.",
                     v.beyond_factor, format_seconds(s_.budget_seconds * v.beyond_factor)));
-  for (std::size_t i = 0; i < s_.options.size(); ++i) {
-    const StudyOption& other = s_.options[i];
+  std::vector<std::string> too_slow;
+  for (const StudyOption& other : s_.options) {
     if (other.state == OptionState::pilot)
       s_.would_change.push_back(fmt::format(
           "{} was left after the pilot ({}); only a pilot that misjudged it would change that.",
           other.name(), other.reason));
-    if (other.state == OptionState::too_slow)
-      s_.would_change.push_back(
-          fmt::format("{} had too few rungs: a larger budget may bring it in.", other.name()));
+    if (other.state == OptionState::too_slow) too_slow.push_back(other.name());
   }
+  if (!too_slow.empty())
+    s_.would_change.push_back(fmt::format(
+        "A larger budget may bring in what had too few rungs for a curve: {}.", join(too_slow)));
   if (best.merges)
     s_.would_change.push_back(
         "Merging is biased by its radius: a smaller target, or another --radius, may change the "

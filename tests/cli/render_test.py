@@ -263,7 +263,8 @@ def test_float_modes():
     check(close(means["mad"], means["strict"], 1e-3), "mad is close", means)
     check(close(means["fast"], means["strict"], 1e-3), "fast is close", means)
     expect(0, [*QUICK, "--checkpoint", "strict.ckpt"])
-    expect(3, [*QUICK, "--float", "mad", "--checkpoint", "strict.ckpt", "--resume"], "float mad")
+    expect(3, [*QUICK, "--float", "mad", "--checkpoint", "strict.ckpt", "--resume"],
+           "float is not given in the one and mad in the other")
     expect(2, [*QUICK, "--float", "fat"], "--float", "Did you mean 'fast'?")
 
 
@@ -314,8 +315,9 @@ def test_stats():
     check(KEYS <= set(stats), "keys of the contract", KEYS - set(stats))
     check(read_json("stats.json") == stats, "--stats FILE is the same document")
     seconds = stats["seconds"]
-    phases = [seconds[name] for name in ("load", "bvh", "kernels", "render", "write")]
-    check(abs(sum(phases) - seconds["total"]) < 0.05 * seconds["total"], "seconds add up", seconds)
+    check({"load", "bvh", "kernels", "render", "write"} < set(seconds), "phases", seconds)
+    phases = [value for name, value in seconds.items() if name != "total"]
+    check(abs(sum(phases) - seconds["total"]) < 1e-6, "seconds add up", seconds)
     check(stats["paths"] == stats["spp"] * WIDTH * HEIGHT, "paths", stats)
     check(stats["rays"] > stats["paths"], "rays", stats)
     names = [one["name"] for one in stats["passes"]]
