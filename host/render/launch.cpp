@@ -88,6 +88,9 @@ void set_merging(Launch& launch, const Merging& merging) {
   launch.mis_deep = merging.first_only ? 0.0f : MERGE_DEEP_TRUST;
 }
 
+static_assert(GRID_BITS_MAX < SORT_DIGIT_BITS * SORT_PASSES,
+              "NONE, the key of what is in no cell, is sorted behind all cells");
+
 void set_grid(Launch& launch, const F4& origin, uint grid_bits) {
   launch.grid_x = origin.x, launch.grid_y = origin.y, launch.grid_z = origin.z;
   launch.cells_per_unit = 1 / (2 * launch.radius);

@@ -77,10 +77,12 @@ std::size_t slice_paths(const RenderOptions& options, std::size_t rows) {
   return std::size_t(pixels * ratio) + 2;
 }
 
-uint slice_rows(const RenderOptions& options, std::size_t tile_rows) {
+uint slice_rows(const Integrator& integrator, const RenderOptions& options, std::size_t tile_rows) {
   // Enough work for any device, and few enough vertices to stay near its caches.
   constexpr std::size_t enough = std::size_t{1} << 16;
-  const std::size_t row = std::max(std::size_t(options.window().width), slice_paths(options, 1));
+  const std::size_t width = std::size_t(options.window().width);
+  const bool all_at_once = integrator.uses(Bundle::grid);  // light paths are in no slice
+  const std::size_t row = all_at_once ? width : std::max(width, slice_paths(options, 1));
   return uint(std::clamp<std::size_t>(enough / row, 1, std::max<std::size_t>(tile_rows, 1)));
 }
 
@@ -120,7 +122,7 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
   if (integrator.uses(Bundle::aov)) bytes["aovs"] = pixels * sizeof(AovPixel);
   bytes["diag"] = DIAG_COUNT * sizeof(uint);
   if (integrator.uses(Bundle::splat)) bytes["splats"] = pixels * SPLAT_WORDS * sizeof(uint);
-  const std::size_t slice = slice_rows(options, rows);
+  const std::size_t slice = slice_rows(integrator, options, rows);
   if (integrator.uses(Bundle::light_vertices))
     add_vertices(integrator, options.plan, "light",
                  integrator.uses(Bundle::grid) ? std::size_t(options.light_path_count())
@@ -184,7 +186,7 @@ MemoryPlan plan_memory(const DeviceInfo& device, const PackedScene& scene,
   }
   options.plan.vertices_per_path = per_path;
   plan.buffers = sizes(low);
-  plan.slice_rows = slice_rows(options, std::size_t(low));
+  plan.slice_rows = slice_rows(integrator, options, std::size_t(low));
   for (int row = 0; row < window.height; row += low)
     plan.tiles.push_back(
         {window.x0, window.y0 + row, window.width, std::min(low, window.height - row)});

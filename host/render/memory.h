@@ -32,7 +32,7 @@ struct MemoryPlan {
 std::size_t slice_paths(const RenderOptions& options, std::size_t rows);
 
 /// Rows of a tile in one slice, at most.
-uint slice_rows(const RenderOptions& options, std::size_t tile_rows);
+uint slice_rows(const Integrator& integrator, const RenderOptions& options, std::size_t tile_rows);
 
 /// Buffers that have a place for every vertex of a side ("light" or "eye"), and its bytes.
 std::map<std::string, std::size_t> vertex_buffers(const Integrator& integrator,

@@ -50,6 +50,7 @@ class Judge {
   }
   int runs() const { return int(option_.runs.size()); }
   void measure_slope();
+  bool starts_below(double relmse);
   void measure_time();
   void label();
   bool floors() const;
@@ -83,13 +84,27 @@ bool Judge::floors() const {
   return 2 * last.bias2 - last.bias2_upper90 > study_.target * study_.target;
 }
 
+/// Whether the shortest runs are surely good enough, so that nothing is known of shorter ones.
+bool Judge::starts_below(double relmse) {
+  const auto first = [&](auto&& value) {
+    return jackknife(runs(), [&](int leave) -> std::optional<double> {
+      return value(mean_curve(option_.runs, leave).front());
+    });
+  };
+  const double wide = t_of(option_.runs.size());
+  const auto error = first([](const CurvePoint& p) { return p.relmse; });
+  if (error->value + wide * error->error > relmse) return false;
+  const auto time = first([](const CurvePoint& p) { return std::log(p.seconds); });
+  v_.kind = TargetKind::measured;
+  v_.seconds = curve_.front().seconds;
+  v_.low = v_.seconds * std::exp(-wide * time->error);
+  v_.high = v_.seconds * std::exp(wide * time->error);
+  return true;
+}
+
 void Judge::measure_time() {
   const double relmse = study_.target * study_.target;
-  if (curve_.front().relmse <= relmse) {  // shorter runs than the first rung there are not
-    v_.kind = TargetKind::measured;
-    v_.seconds = v_.low = v_.high = curve_.front().seconds;
-    return;
-  }
+  if (starts_below(relmse)) return;
   const auto time = jackknife(runs(), [&](int leave) -> std::optional<double> {
     const std::vector<CurvePoint> curve = mean_curve(option_.runs, leave);
     const std::optional<double> t = crossing(curve, fit(curve), relmse);
@@ -124,6 +139,9 @@ void Judge::label() {
 Verdict Judge::verdict() {
   check_numbers(option_);
   const bool enough = runs() >= 3 && curve_.size() >= LEAST_RUNGS;
+  if (option_.state == OptionState::main && option_.precision == "strict" && !enough)
+    v_.flags.push_back(
+        fmt::format("{} runs of {} rungs are too few for a verdict", runs(), curve_.size()));
   if (enough) {
     const CurveFit all = fit(curve_);
     v_.noise = all.noise, v_.exponent = all.exponent, v_.bias = all.bias;
@@ -158,12 +176,13 @@ Verdict paired_verdict(const Study& s, const PrecisionPair& pair, const StudyOpt
   const double left = s.target * s.target - bias2;
   CurveFit fit = fit_curve(mean_curve(strict.runs), strict.merges, strict.radius_alpha);
   const std::optional<double> now = fit.reaches(s.target * s.target), then = fit.reaches(left);
-  if (!then || !now) {
-    if (bias2 > 0) v.kind = TargetKind::never;
+  if (pair.wrong > 0) v.flags.push_back(fmt::format("{} device counters", pair.wrong));
+  if (bias2 > 0 && !then) {
+    v.kind = TargetKind::never;
     v.flags.push_back(fmt::format("a floor of {:.2g} %", 100 * std::sqrt(bias2)));
     return v;
   }
-  const double longer = *then / *now;
+  const double longer = then && now ? *then / *now : 1;
   v.seconds *= pair.time_ratio * longer;
   v.low *= pair.time_low * longer, v.high *= pair.time_high * longer;
   v.noise *= std::pow(pair.time_ratio, v.exponent);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/timer.h"
 #include "study/ladder.h"
 
 namespace pellucid {
@@ -40,6 +41,7 @@ std::optional<PrecisionPair> compare_precision(
     const StudyStage& stage, const PairJob& job, const std::vector<double>& weights,
     std::uint64_t seed, double seconds, const std::function<void(const std::string&)>& tell) {
   const Integrator& method = job.strict->method();
+  const Timer timer;
   Contender strict(stage, method, "strict"), relaxed(stage, method, job.precision);
   PrecisionPair pair;
   pair.integrator = method.name, pair.precision = job.precision;
@@ -50,7 +52,7 @@ std::optional<PrecisionPair> compare_precision(
                                  strict.run(seed + std::uint64_t(k), 1).picture);
   pair.divergent_per_million = 1e6 * divergent / pairs;
   // By what runs of the contender in the race have cost: those of one sample say too little.
-  const double spp = job.strict->spp_in(seconds / (2 * pairs) - 0.5 * relaxed.cost(0));
+  const double spp = job.strict->spp_in((seconds - timer.seconds()) / (2 * pairs));
   if (spp < double(SOBOL_BLOCK)) return std::nullopt;
   pair.spp = ladder_to(spp).back();
   PictureStack differences;
@@ -71,6 +73,9 @@ std::optional<PrecisionPair> compare_precision(
   std::sort(ratios.begin(), ratios.end());
   pair.time_low = ratios.front(), pair.time_ratio = ratios[pairs / 2],
   pair.time_high = ratios.back();
+  StudyOption facts;
+  relaxed.describe(facts);
+  pair.wrong = facts.wrong;
   return pair;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/statistics.h"
 #include "base/text.h"
@@ -22,20 +23,23 @@ double cost_of(const Entry& entry, double spp) {
   return runs * entry.contender->cost(std::uint64_t(spp));
 }
 
-/// Leaves out the dearest options until the rest can have the rungs that a curve needs.
+/// Leaves out options until the rest can have the rungs that a curve needs: first those that are
+/// blind, then those worth least in the pilot.
 void drop_too_slow(double seconds, std::vector<Entry>& entries) {
+  const auto worth = [](const Entry* e) {
+    return e->option.state == OptionState::blind ? -1.0 : e->option.pilot_efficiency;
+  };
   for (;;) {
-    Entry* dearest = nullptr;
+    const std::vector<Entry*> all = racing(entries);
     double sum = 0;
-    for (Entry* entry : racing(entries)) {
-      sum += cost_of(*entry, least_spp);
-      if (!dearest || cost_of(*entry, least_spp) > cost_of(*dearest, least_spp)) dearest = entry;
-    }
-    if (sum <= seconds || !dearest) return;
-    if (dearest->option.state == OptionState::main) dearest->option.state = OptionState::too_slow;
-    dearest->option.reason = fmt::format("{} rungs in {} runs would take {}", LEAST_RUNGS,
-                                         main_runs, format_seconds(cost_of(*dearest, least_spp)));
-    dearest->raced = false;
+    for (const Entry* entry : all) sum += cost_of(*entry, least_spp);
+    if (sum <= seconds || all.empty()) return;
+    Entry* least = *std::min_element(all.begin(), all.end(),
+                                     [&](Entry* a, Entry* b) { return worth(a) < worth(b); });
+    if (least->option.state == OptionState::main) least->option.state = OptionState::too_slow;
+    least->option.reason = fmt::format("{} rungs in {} runs would take {}", LEAST_RUNGS, main_runs,
+                                       format_seconds(cost_of(*least, least_spp)));
+    least->raced = false;
   }
 }
 
@@ -54,8 +58,9 @@ void eliminate(const Reference& reference, std::vector<Entry>& entries) {
     Cost cost{&entry};
     std::vector<double> logs;
     for (const LadderStep& p : entry.pilots)
-      logs.push_back(std::log(weighted_distance(p.picture, reference.picture, reference.weights) *
-                              p.rung.seconds));
+      logs.push_back(std::log(std::max(  // no error at all is a number, too
+          weighted_distance(p.picture, reference.picture, reference.weights) * p.rung.seconds,
+          std::numeric_limits<double>::min())));
     for (double v : logs) cost.mean += v / pilot_runs;
     for (double v : logs) cost.error += std::pow(v - cost.mean, 2);
     cost.error = std::sqrt(cost.error / (pilot_runs - 1) / pilot_runs);
@@ -69,9 +74,11 @@ void eliminate(const Reference& reference, std::vector<Entry>& entries) {
     const double worse = cost.mean - best.mean - t * std::hypot(cost.error, best.error);
     if (worse < std::log(dearer)) continue;
     cost.entry->option.state = OptionState::pilot;
+    constexpr double countable = 1e6;
+    const double times = std::exp(std::min(cost.mean - best.mean, std::log(countable)));
     cost.entry->option.reason =
-        fmt::format("about {:.0f} times dearer than {}", std::exp(cost.mean - best.mean),
-                    best.entry->contender->method().name);
+        fmt::format("{} {:.0f} times dearer than {}", times < countable ? "about" : "at least",
+                    times, best.entry->contender->method().name);
   }
 }
 

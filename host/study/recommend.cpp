@@ -31,12 +31,6 @@ bool timed(const Verdict& v) {
          v.kind == TargetKind::extrapolated;
 }
 
-/// Of log seconds.
-double error_of(const StudyOption& option, const Verdict& v) {
-  const double runs = double(std::max<std::size_t>(option.runs.size(), 3));
-  return std::log(v.high / v.low) / (2 * student_quantile(0.5 + 0.5 * STUDY_CONFIDENCE, runs - 1));
-}
-
 class Chooser {
  public:
   explicit Chooser(Study& study) : s_(study) {}
@@ -45,6 +39,9 @@ class Chooser {
  private:
   std::vector<int> candidates() const;
   bool differ(int a, int b) const;
+  std::size_t runs_of(const StudyOption& option) const;
+  double error_of(int i) const;
+  std::pair<double, double> time_ratio(const StudyOption& option) const;
   std::string time_text(int i) const;
   void explain_nothing();
   void tell_conditions();
@@ -62,21 +59,42 @@ std::vector<int> Chooser::candidates() const {
   return out;
 }
 
+/// Those that its interval is of: a relaxed option has its strict sibling's.
+std::size_t Chooser::runs_of(const StudyOption& option) const {
+  for (const StudyOption& o : s_.options)
+    if (o.integrator == option.integrator && o.precision == "strict" && !o.runs.empty())
+      return o.runs.size();
+  return std::max<std::size_t>(option.runs.size(), 2);
+}
+
+/// Standard error of log seconds.
+double Chooser::error_of(int i) const {
+  const Verdict& v = s_.verdicts[std::size_t(i)];
+  const double dof = double(runs_of(s_.options[std::size_t(i)]) - 1);
+  return std::log(v.high / v.low) / (2 * student_quantile(0.5 + 0.5 * STUDY_CONFIDENCE, dof));
+}
+
+/// Seconds over those of the strict sibling: least and largest of the pairs.
+std::pair<double, double> Chooser::time_ratio(const StudyOption& option) const {
+  for (const PrecisionPair& p : s_.pairs)
+    if (p.integrator == option.integrator && p.precision == option.precision)
+      return {p.time_low, p.time_high};
+  return {1, 1};
+}
+
 /// Whether their times do, at the study's confidence. Of a method in two precisions, only what the
 /// pairs say counts: noise is theirs in common.
 bool Chooser::differ(int a, int b) const {
   const StudyOption &x = s_.options[std::size_t(a)], &y = s_.options[std::size_t(b)];
-  const Verdict &u = s_.verdicts[std::size_t(a)], &v = s_.verdicts[std::size_t(b)];
   if (x.integrator == y.integrator) {
-    const std::string& relaxed = x.precision == "strict" ? y.precision : x.precision;
-    for (const PrecisionPair& p : s_.pairs)
-      if (p.integrator == x.integrator && p.precision == relaxed)
-        return p.time_low > 1 || p.time_high < 1;
+    const auto [x_low, x_high] = time_ratio(x);
+    const auto [y_low, y_high] = time_ratio(y);
+    return x_high < y_low || y_high < x_low;
   }
-  const double ex = error_of(x, u), ey = error_of(y, v);
-  const double runs = double(std::max<std::size_t>(x.runs.size() + y.runs.size(), 4));
-  const double t = student_quantile(0.5 + 0.5 * STUDY_CONFIDENCE, runs - 2);
-  return std::abs(std::log(u.seconds / v.seconds)) > t * std::sqrt(ex * ex + ey * ey);
+  const double u = s_.verdicts[std::size_t(a)].seconds, v = s_.verdicts[std::size_t(b)].seconds;
+  const double dof = double(runs_of(x) + runs_of(y) - 2);
+  return std::abs(std::log(u / v)) >
+         student_quantile(0.5 + 0.5 * STUDY_CONFIDENCE, dof) * std::hypot(error_of(a), error_of(b));
 }
 
 std::string Chooser::time_text(int i) const {
@@ -94,7 +112,8 @@ void Chooser::explain_nothing() {
       "Inconclusive: no option is known to reach {:.3g} % without a flag. ", 100 * s_.target);
   const bool short_of_time =
       std::any_of(s_.options.begin(), s_.options.end(), [](const StudyOption& o) {
-        return o.state == OptionState::too_slow || (o.state == OptionState::main && o.runs.empty());
+        return o.state == OptionState::too_slow ||
+               (o.state == OptionState::main && o.runs.size() < 3);
       });
   if (!s_.reference.trusted)
     s_.recommendation += "The reference is in doubt: " + s_.reference.doubt + ".";

@@ -94,17 +94,31 @@ void Runner::enlist() {
   for (Entry& entry : entries_) entry.contender->describe(entry.option);
 }
 
+/// What fails by itself leaves the study; the others go on.
+template <typename F>
+void attempt(Entry& entry, F&& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    entry.option.state = OptionState::refused;
+    entry.option.reason = error.what();
+    log_warn("{}: {}", entry.contender->method().name, error.what());
+  }
+}
+
 void Runner::pilot() {
   for (Entry& entry : entries_) {
     tell(fmt::format("building kernels: {}", entry.contender->method().name));
-    entry.contender->run(seed(pilot_seeds, pilot_runs), SOBOL_BLOCK);
+    attempt(entry, [&] { entry.contender->run(seed(pilot_seeds, pilot_runs), SOBOL_BLOCK); });
   }
   for (int k = 0; k < pilot_runs; ++k)
     for (Entry& entry : entries_) {
       if (entry.option.state == OptionState::refused) continue;
       tell(fmt::format("pilot {} of {}: {}", k + 1, pilot_runs, entry.contender->method().name));
-      entry.pilots.push_back(entry.contender->run(seed(pilot_seeds, k), pilot_spp));
-      if (all_finite(entry.pilots.back().picture)) continue;
+      attempt(entry, [&] {
+        entry.pilots.push_back(entry.contender->run(seed(pilot_seeds, k), pilot_spp));
+      });
+      if (entry.pilots.empty() || all_finite(entry.pilots.back().picture)) continue;
       entry.option.state = OptionState::refused;
       entry.option.reason = "its pictures hold pixels that are no numbers";
     }
@@ -193,7 +207,7 @@ void Runner::replicate() {
           until_main * request_.budget_seconds)
         continue;  // it would end too late
       tell(fmt::format("round {} of {}: {}", k + 1, main_runs, entry->contender->method().name));
-      replicate_one(*entry, k);
+      attempt(*entry, [&] { replicate_one(*entry, k); });
     }
   }
 }
@@ -223,10 +237,14 @@ void Runner::compare_precisions() {
     }
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const double left = request_.budget_seconds - clock_.seconds();
-    const auto pair = compare_precision(stage_, jobs[i], reference_.weights, seed(pair_seeds, 0),
-                                        left / double(jobs.size() - i),
-                                        [this](const std::string& t) { tell(t); });
-    if (pair) pairs_.push_back(*pair);
+    try {
+      const auto pair = compare_precision(stage_, jobs[i], reference_.weights, seed(pair_seeds, 0),
+                                          left / double(jobs.size() - i),
+                                          [this](const std::string& t) { tell(t); });
+      if (pair) pairs_.push_back(*pair);
+    } catch (const Error& error) {  // that precision alone is not to be had here
+      log_warn("{} {}: {}", jobs[i].strict->method().name, jobs[i].precision, error.what());
+    }
   }
 }
 
@@ -259,6 +277,7 @@ Study Runner::gather() {
   for (const PrecisionPair& pair : pairs_) {
     StudyOption option;
     option.integrator = pair.integrator, option.precision = pair.precision;
+    option.wrong = pair.wrong;
     for (const StudyOption& strict : study.options)
       if (strict.integrator == pair.integrator && strict.precision == "strict")
         option.merges = strict.merges, option.radius_alpha = strict.radius_alpha;
@@ -292,6 +311,9 @@ Study Runner::run() {
   try {
     pilot();
     refer();
+    if (!(energy_of(reference_.picture) > 0))
+      throw InputError(fmt::format("the reference ({}) is black: no error is relative to nothing",
+                                   reference_.facts.source));
     eliminate(reference_, entries_);
     plan_ladders(until_main * request_.budget_seconds - clock_.seconds(), entries_);
     replicate();

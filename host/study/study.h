@@ -75,6 +75,7 @@ struct PrecisionPair {
   double time_ratio = 1, time_low = 1, time_high = 1;  ///< seconds over those of strict; least and
                                                        ///< largest of the pairs
   double divergent_per_million = 0;                    ///< paths that took another turn
+  std::uint64_t wrong = 0;  ///< as StudyOption::wrong, of the relaxed one
 };
 
 /// What errors are measured against.

@@ -25,7 +25,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StudyRun, seed, rungs)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Split, spp, variance, bias2, bias2_upper90)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PassSeconds, name, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PrecisionPair, integrator, precision, spp, bias2, bias2_upper90,
-                                   time_ratio, time_low, time_high, divergent_per_million)
+                                   time_ratio, time_low, time_high, divergent_per_million, wrong)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StudyReference, source, relmse, energy_error, disagreement,
                                    trusted, doubt, picture)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StudyMachine, device, driver, version, clock, threads,

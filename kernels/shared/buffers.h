@@ -48,7 +48,9 @@
   X(uint, eye_last, "[pixels of a slice]")                    \
   X(uint, eye_first, "[pixels of a slice + 1]")               \
   X(uint, eye_order, "[eye capacity]")
-// Light vertices by the cell of space that they lie in. Pairs: (cell, place in light_order).
+// Light vertices by the cell of space that they lie in. Pairs: (cell, place in light_order); those
+// that are never merged have cell NONE and stand behind all others, where lists by cell hold
+// nothing.
 #define GRID_BUFFERS(X)                                                                  \
   X(F4, photon_positions, "cell by cell [light capacity]")                               \
   X(Photon, photons, "in the same order [light capacity]")                               \

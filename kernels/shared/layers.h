@@ -16,7 +16,7 @@
 #define LAYERS_VERTICES 4u  // how many light vertices the camera sees in a pixel
 #define LAYERS_MERGE 8u     // with LAYERS_TECH: merges by eye vertex, weighted and unweighted
 // Of the first vertex in a pixel that gathers photons:
-#define LAYERS_PHOTONS 16u  // how many it merges with
+#define LAYERS_PHOTONS 16u  // how many that can merge are within the radius
 #define LAYERS_CELLS \
   32u  // pass 0: photons in its cell, in the cell's bucket, parity (LAYER_CELL_*)
 #define LAYERS_RADIUS 64u  // the radius of merging in widths of a pixel

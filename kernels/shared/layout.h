@@ -199,7 +199,7 @@ typedef struct Launch {
   float grid_x, grid_y, grid_z;  // origin of the photon grid: amid the scene
   float cells_per_unit;          // of length, along an axis
   uint grid_bits;                // its table has 2^this places
-  uint photon_count;             // light vertices in it
+  uint photon_count;             // light vertices, those that are in no cell, too
   uint digit;                    // of the sort, from 0
   float
       mis_deep;  // what merges after the first weigh of what their density says; 0: there are none

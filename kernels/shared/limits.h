@@ -57,15 +57,15 @@
 
 /// The photon sort: a stable radix sort of SORT_PASSES digits, without atomics, in which a
 /// work-item sorts a block of its own.
-#define SORT_DIGIT_BITS 10u
-#define SORT_DIGITS 1024u
+#define SORT_DIGIT_BITS 11u
+#define SORT_DIGITS 2048u
 #define SORT_PASSES 2u
 #define SORT_BLOCKS 16u
 
 /// The photon grid has 2^this cells at least and at most: what the sort can tell apart, with NONE
 /// for what is in no cell behind them all.
 #define GRID_BITS_MIN 6u
-#define GRID_BITS_MAX 19u
+#define GRID_BITS_MAX 21u
 
 /// How far photons are looked for, over the radius: 1 + 2^-20. Rounding lets photons count that are
 /// 4 roundoffs farther away than it, and may shorten this by one (transport/grid.h).

@@ -115,7 +115,8 @@ void expect_sorted(PhotonGrid& grid, const Cloud& cloud) {
 }
 
 /// Searches in tables of all these sizes against brute force; returns the mean number found.
-double expect_found(const Cloud& cloud, const std::vector<uint>& table_bits = {6, 16, 20}) {
+double expect_found(const Cloud& cloud,
+                    const std::vector<uint>& table_bits = {GRID_BITS_MIN, 16, GRID_BITS_MAX}) {
   static PhotonGrid grid = make_grid();
   const std::vector<U4> expected = brute_force(cloud);
   for (uint bits : table_bits) {

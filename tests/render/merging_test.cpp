@@ -198,15 +198,15 @@ TEST(Merging, dark_strip_at_a_wall_is_as_wide_as_the_radius) {
   }
 }
 
-// All light here comes straight from its source, and `bpm` alone merges that: it is the one that
-// may leak. Photons on the other side of a wall a tenth of the radius thick, of one without any
-// thickness, and of two sheets that face the same way.
+// Photons on the other side of a wall a tenth of the radius thick, of one without any thickness,
+// and of two sheets that face the same way: straight from the lamp for `bpm`, by way of a ball for
+// all.
 TEST(Merging, nothing_leaks_through_a_thin_wall) {
   Scene two = scene_named("thin-wall"), sheet = two, alike = two, lit = two;
   sheet.shapes.erase(sheet.shapes.begin() + 1);
   for (glm::uvec3& t : std::get<Mesh>(alike.shapes.at(1).geometry).triangles) std::swap(t.y, t.z);
   lit.camera.origin.z *= -1, lit.camera.forward.z *= -1, lit.camera.right.x *= -1;
-  for (const char* method : {"bpm", "vcm"}) {
+  for (const char* method : {"sppm", "bpm", "vcm"}) {
     const Build build = fixed_radius(method, 0.1, 16, 1 << 10);
     const auto render = [&](const Scene& scene) {
       return Renderer(scene, build).render({16, 1, {}, MIS_BALANCE});

@@ -255,13 +255,46 @@ TEST(StudyAnalysis, precision) {
     relaxed.integrator = "path", relaxed.precision = mode;
     world.study().options.push_back(relaxed);
   }
-  world.study().pairs = {{"path", "mad", 256, 1e-12, 1e-11, 0.8, 0.79, 0.81, 3},
-                         {"path", "fast", 256, 1e-3, 1.01e-3, 0.5, 0.49, 0.51, 3}};
+  world.study().pairs = {{"path", "mad", 256, 1e-12, 1e-11, 0.8, 0.79, 0.81, 3, 0},
+                         {"path", "fast", 256, 1e-3, 1.01e-3, 0.5, 0.49, 0.51, 3, 0}};
   analyse(world.study());
   const auto& v = world.study().verdicts;
   EXPECT_NEAR(v[1].seconds / v[0].seconds, 0.8, 1e-12);
   EXPECT_EQ(v[2].kind, TargetKind::never);
   EXPECT_EQ(world.study().recommended, 1) << world.study().recommendation;
+}
+
+// Of two relaxed precisions the quicker one wins, though the slower differs from strict as little.
+TEST(StudyAnalysis, relaxed_beside_relaxed) {
+  World world(9300);
+  world.add({"path", 0.08, 0.01});
+  for (const char* mode : {"mad", "fast"}) {
+    StudyOption relaxed;
+    relaxed.integrator = "path", relaxed.precision = mode;
+    world.study().options.push_back(relaxed);
+  }
+  world.study().pairs = {{"path", "mad", 256, 1e-12, 1e-11, 0.99, 0.97, 1.02, 3, 0},
+                         {"path", "fast", 256, 1e-12, 1e-11, 0.9, 0.88, 0.93, 3, 0}};
+  analyse(world.study());
+  EXPECT_EQ(world.study().recommended, 2) << world.study().recommendation;
+  world.study().pairs[1].wrong = 1;
+  analyse(world.study());
+  EXPECT_NE(world.study().recommended, 2) << "its kernels count what went wrong";
+}
+
+// Errors below the target from the first rung on: times are alike, not different by the clock's
+// luck.
+TEST(StudyAnalysis, equals_from_the_start) {
+  int equal = 0;
+  constexpr int studies = 100;
+  for (unsigned i = 0; i < studies; ++i) {
+    World world(9400 + i);
+    world.add({"path", 1e-4, 0.01});
+    world.add({"vcm", 1e-4, 0.01});
+    analyse(world.study());
+    equal += world.study().equals.size() == 1;
+  }
+  EXPECT_GE(equal, 0.9 * studies - 2.5 * std::sqrt(0.09 * studies)) << "a nominal 90 %";
 }
 
 TEST(StudyFit, recovers_exact_curves) {
