@@ -66,7 +66,7 @@ def test_scene_values():
 
 def test_usage():
     expect(2, ["room.json", "--sppp", "4"], "'--sppp'", "Did you mean '--spp'?")
-    expect(2, ["room.json", "--error", "1%"], "there is no option '--error'")
+    expect(2, ["room.json", "--denoise"], "there is no option '--denoise'")
     expect(2, ["room.json", "other.json"], "other.json")
     expect(2, ["render"], "SCENE is required")
     bad = {
