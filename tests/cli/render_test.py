@@ -317,7 +317,8 @@ def test_stats():
     seconds = stats["seconds"]
     check({"load", "bvh", "kernels", "render", "write"} < set(seconds), "phases", seconds)
     phases = [value for name, value in seconds.items() if name != "total"]
-    check(abs(sum(phases) - seconds["total"]) < 1e-6, "seconds add up", seconds)
+    # All but the microseconds between two looks at the clock.
+    check(abs(sum(phases) - seconds["total"]) < 1e-3, "seconds add up", seconds)
     check(stats["paths"] == stats["spp"] * WIDTH * HEIGHT, "paths", stats)
     check(stats["rays"] > stats["paths"], "rays", stats)
     names = [one["name"] for one in stats["passes"]]
