@@ -15,7 +15,7 @@ namespace pellucid {
 struct StudyStage {
   Device device;
   const PackedScene& packed;
-  RenderOptions options;  ///< size, crop, depth, memory, radius
+  RenderOptions options;  ///< size, crop, depth, memory
   std::function<bool()> stop;
 };
 

@@ -143,7 +143,7 @@ void Chooser::tell_conditions() {
         "A larger budget may bring in what had too few rungs for a curve: {}.", join(too_slow)));
   if (best.merges)
     s_.would_change.push_back(
-        "Merging is biased by its radius: a smaller target, or another --radius, may change the "
+        "Merging is biased by its radius: a smaller target, or another radius, may change the "
         "ranks.");
   if (!s_.pairs.empty())
     s_.would_change.push_back("Precisions were compared on this device and driver alone.");

@@ -165,8 +165,7 @@ void Runner::refer() {
     reference_ = make_reference(*unbiased[0].second->contender, *other_voice(unbiased)->contender,
                                 seed(reference_seeds, 0), seconds, say);
   } else {
-    const double radius = stage_.options.radius.value_or(
-        default_radius(stage_.packed, stage_.options.light_path_count()));
+    const double radius = default_radius(stage_.packed, stage_.options.light_path_count());
     reference_ = extrapolate_reference(*merging[0].second->contender, radius,
                                        seed(reference_seeds, 0), seconds, say);
   }

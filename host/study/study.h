@@ -105,7 +105,7 @@ struct Verdict {
   double slope = 0, slope_low = 0, slope_high = 0;  ///< of log relMSE over log seconds, 90 %
   double slope_from = 0, slope_to = 0;              ///< where it should be
   double noise = 0, bias = 0,
-         exponent = 1;      ///< relMSE = noise t^-exponent + bias t^-(2-2 exponent)
+         exponent = 1;      ///< relMSE = noise t^-exponent + bias t^-(2 - 2 radius_alpha)
   double fit_residual = 0;  ///< largest, relative
   double energy = 1, energy_low = 1, energy_high = 1;
   std::vector<std::string> flags;  ///< red ones: what forbids a recommendation

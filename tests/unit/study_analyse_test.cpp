@@ -44,6 +44,16 @@ class World {
     return study_.options.back();
   }
 
+  /// The same, and its relaxed precisions without runs of their own.
+  void add_relaxed(const Truth& truth) {
+    add(truth);
+    for (const char* mode : {"mad", "fast"}) {
+      StudyOption relaxed;
+      relaxed.integrator = truth.name, relaxed.precision = mode;
+      study_.options.push_back(relaxed);
+    }
+  }
+
   Study& study() { return study_; }
   /// Every reference value is off by so much.
   double shift = 0;
@@ -249,12 +259,7 @@ TEST(StudyAnalysis, a_tiny_budget_is_inconclusive) {
 // The precision axis: quicker and harmless wins, quicker with a floor above the target never does.
 TEST(StudyAnalysis, precision) {
   World world(9200);
-  world.add({"path", 0.08, 0.01});
-  for (const char* mode : {"mad", "fast"}) {
-    StudyOption relaxed;
-    relaxed.integrator = "path", relaxed.precision = mode;
-    world.study().options.push_back(relaxed);
-  }
+  world.add_relaxed({"path", 0.08, 0.01});
   world.study().pairs = {{"path", "mad", 256, 1e-12, 1e-11, 0.8, 0.79, 0.81, 3, 0},
                          {"path", "fast", 256, 1e-3, 1.01e-3, 0.5, 0.49, 0.51, 3, 0}};
   analyse(world.study());
@@ -267,12 +272,7 @@ TEST(StudyAnalysis, precision) {
 // Of two relaxed precisions the quicker one wins, though the slower differs from strict as little.
 TEST(StudyAnalysis, relaxed_beside_relaxed) {
   World world(9300);
-  world.add({"path", 0.08, 0.01});
-  for (const char* mode : {"mad", "fast"}) {
-    StudyOption relaxed;
-    relaxed.integrator = "path", relaxed.precision = mode;
-    world.study().options.push_back(relaxed);
-  }
+  world.add_relaxed({"path", 0.08, 0.01});
   world.study().pairs = {{"path", "mad", 256, 1e-12, 1e-11, 0.99, 0.97, 1.02, 3, 0},
                          {"path", "fast", 256, 1e-12, 1e-11, 0.9, 0.88, 0.93, 3, 0}};
   analyse(world.study());
