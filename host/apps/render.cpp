@@ -274,6 +274,7 @@ ExitCode RenderJob::run() {
     return pack_scene(scene_, {simd_width_for(target.info())});
   }();
   facts_.packed = &packed;
+  facts_.options.least_effective = least_effective(*facts_.integrator, facts_.optics());
   if (o.radius) check_radius(packed, *o.radius);
   if (flags_.dry_run) {
     image_library.get();

@@ -83,18 +83,8 @@ void set_merging(const RenderFlags& flags, const Integrator& method, RenderOptio
     if (!text->empty() && !method.wishes.has(INTG_MERGE))
       throw UsageError(std::string(option) + " has no effect on '" + method.name +
                        "', which merges nothing");
-  if (!flags.radius.empty()) {
-    o.radius = parse_number("--radius", flags.radius);
-    if (!(*o.radius >= MERGE_RADIUS_MIN && *o.radius <= MERGE_RADIUS_MAX))
-      throw UsageError(fmt::format("--radius takes a length from {:.2g} to {:.2g}, not '{}'",
-                                   MERGE_RADIUS_MIN, MERGE_RADIUS_MAX, flags.radius));
-  }
-  if (!flags.radius_alpha.empty()) {
-    o.radius_alpha = parse_number("--radius-alpha", flags.radius_alpha);
-    if (!(o.radius_alpha > 0 && o.radius_alpha <= 1))
-      throw UsageError("--radius-alpha takes a number above 0 and up to 1, not '" +
-                       flags.radius_alpha + "'");
-  }
+  if (!flags.radius.empty()) o.radius = parse_radius(flags.radius);
+  if (!flags.radius_alpha.empty()) o.radius_alpha = parse_radius_alpha(flags.radius_alpha);
 }
 
 /// Which vertices merge. Throws UsageError where the method has no choice.
@@ -212,6 +202,21 @@ void declare_sampling(CLI::App& app, RenderFlags& f) {
 }
 
 }  // namespace
+
+double parse_radius(const std::string& text) {
+  const double radius = parse_number("--radius", text);
+  if (!(radius >= MERGE_RADIUS_MIN && radius <= MERGE_RADIUS_MAX))
+    throw UsageError(fmt::format("--radius takes a length from {:.2g} to {:.2g}, not '{}'",
+                                 MERGE_RADIUS_MIN, MERGE_RADIUS_MAX, text));
+  return radius;
+}
+
+double parse_radius_alpha(const std::string& text) {
+  const double alpha = parse_number("--radius-alpha", text);
+  if (!(alpha > 0 && alpha <= 1))
+    throw UsageError("--radius-alpha takes a number above 0 and up to 1, not '" + text + "'");
+  return alpha;
+}
 
 void RenderFlags::declare(CLI::App& app) {
   app.add_option("SCENE", scene,

@@ -16,6 +16,10 @@ class App;
 
 namespace pellucid {
 
+/// Values of --radius and --radius-alpha. Throw UsageError out of range.
+double parse_radius(const std::string& text);
+double parse_radius_alpha(const std::string& text);
+
 /// Options as people write them. Precedence: flag, environment, scene, default.
 struct RenderFlags {
   std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, error, size,

@@ -1,28 +1,17 @@
 // Runs on one scene, and their error.
 #include "bench/bench_scene.h"
 
-#include <algorithm>
-#include <thread>
-
+#include "base/relmse.h"
 #include "render/launch.h"
 
 namespace pellucid {
-namespace {
-
-/// What the seconds of a CPU device are shared among: its driver's threads, if there are cores for
-/// them.
-int threads_of(const DeviceInfo& device) {
-  return int(std::max(1u, std::min(device.compute_units, std::thread::hardware_concurrency())));
-}
-
-}  // namespace
 
 BenchScene::BenchScene(const Device& device, Scene scene, int size, const PlanOptions& plan)
     : device_(device),
       scene_(std::move(scene)),
       size_(size),
       plan_(plan),
-      clock_{device.info().cpu, threads_of(device.info())} {
+      clock_{device.info().cpu, device_cores(device.info())} {
   scene_.settings.width = scene_.settings.height = size;
   scene_.settings.filter = PixelFilter::box;
   packed_ = pack_scene(scene_, {simd_width_for(device.info())});
@@ -64,7 +53,7 @@ double relmse_to(const BenchRun& reference, const BenchRun& run) {
   for (float v : reference.rgb) mean += v / n;
   for (std::size_t i = 0; i < reference.rgb.size(); ++i) {
     const double expected = reference.rgb[i], d = double(run.rgb[i]) - expected;
-    sum += d * d / (expected * expected + 1e-4 * mean * mean) / n;
+    sum += d * d * relmse_weight(expected, RELMSE_EPSILON * mean) / n;
   }
   return sum - reference.relmse_estimate;
 }

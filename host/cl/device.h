@@ -28,6 +28,10 @@ struct DeviceInfo {
 /// all.
 std::vector<DeviceInfo> list_devices();
 
+/// What the seconds of a CPU device are shared among: its driver's threads, if there are cores for
+/// them. 1 at least.
+int device_cores(const DeviceInfo& device);
+
 /// Seconds that the device itself spent in launches of one pass.
 struct PassTime {
   double seconds = 0;

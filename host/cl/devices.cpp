@@ -1,5 +1,6 @@
 // Finding and describing devices.
 #include <algorithm>
+#include <thread>
 
 #include "base/error.h"
 #include "cl/opencl.h"
@@ -54,6 +55,10 @@ DeviceInfo describe_device(const cl::Platform& platform, const cl::Device& devic
   info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   info.unusable = why_unusable(device);
   return info;
+}
+
+int device_cores(const DeviceInfo& device) {
+  return int(std::max(1u, std::min(device.compute_units, std::thread::hardware_concurrency())));
 }
 
 std::vector<DeviceInfo> list_devices() {

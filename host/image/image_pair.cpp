@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/relmse.h"
 #include "base/text.h"
 
 namespace pellucid {
@@ -49,14 +50,13 @@ std::uint64_t ImagePair::count_nonfinite() const {
 }
 
 double ImagePair::epsilon() const {
-  constexpr double of_mean = 0.01;
   double sum = 0, count = 0;
   for (std::size_t p = 0; p < pixels(); ++p) {
     if (!finite(p)) continue;
     for (std::size_t c = 0; c < colours(); ++c) sum += b(p, c);
     count += static_cast<double>(colours());
   }
-  return quotient(of_mean * std::abs(sum), count);
+  return quotient(RELMSE_EPSILON * std::abs(sum), count);
 }
 
 double ImagePair::relmse(std::size_t pixel, double e) const {

@@ -11,19 +11,8 @@
 #include "image/variances.h"
 
 namespace pellucid {
-namespace {
 
-/// products[k][l]: mean of (x_k - ref)(x_l - ref) over pixels and channels.
-using Products = std::vector<std::vector<double>>;
-
-struct Split {
-  double variance, bias2;
-};
-
-/// Of the runs, each counted so often. With d_k = x_k - ref: the mean over runs of d is
-/// sum(n_k d_k) / N, s^2 = (sum(n_k d_k^2) - N mean(d)^2) / (N - 1), and
-/// bias^2 = mean(d)^2 - s^2 / N: the noise that is left in the mean is no bias.
-Split split(const Products& products, const std::vector<int>& counts) {
+VarianceAndBias split_products(const RunProducts& products, const std::vector<int>& counts) {
   double squares = 0, of_sum = 0, n = 0;
   for (std::size_t k = 0; k < counts.size(); ++k) {
     n += counts[k];
@@ -36,6 +25,8 @@ Split split(const Products& products, const std::vector<int>& counts) {
   return {variance, of_mean - variance / n};
 }
 
+namespace {
+
 /// The value below which a share of the sorted list lies.
 double quantile(const std::vector<double>& sorted, double share) {
   return sorted[std::size_t(share * double(sorted.size() - 1))];
@@ -45,17 +36,17 @@ double quantile(const std::vector<double>& sorted, double share) {
 /// the runs is what these differ from the truth. Draws spread the variance of the runs as it is,
 /// (K-1)/K of the unbiased one, and are centred on what the runs have in common with the
 /// reference, noise included, which leaves bounds on bias wide where there is none.
-ErrorSplit with_intervals(const Products& products, double reference_variance) {
+ErrorSplit with_intervals(const RunProducts& products, double reference_variance) {
   constexpr int draws = 1000;
   const std::size_t runs = products.size();
-  const Split found = split(products, std::vector<int>(runs, 1));
+  const VarianceAndBias found = split_products(products, std::vector<int>(runs, 1));
   std::mt19937_64 random(runs);  // the same runs always give the same intervals
   std::vector<double> variances, biases;
   double mean_bias = 0;
   for (int i = 0; i < draws; ++i) {
     std::vector<int> counts(runs);
     for (std::size_t k = 0; k < runs; ++k) ++counts[random() % runs];
-    const Split drawn = split(products, counts);
+    const VarianceAndBias drawn = split_products(products, counts);
     variances.push_back(drawn.variance * double(runs) / double(runs - 1));
     biases.push_back(drawn.bias2);
     mean_bias += drawn.bias2 / draws;
@@ -77,7 +68,7 @@ ErrorSplit unknown() {
 }
 
 struct Sums {
-  Products absolute, relative;
+  RunProducts absolute, relative;
   double reference_variance = 0, relative_variance = 0;
 };
 
@@ -85,7 +76,8 @@ struct Sums {
 Sums look_at(const std::vector<ImagePair>& pairs, const Variances* variances) {
   const ImagePair& first = pairs.front();
   const std::size_t runs = pairs.size();
-  Sums sums{Products(runs, std::vector<double>(runs)), Products(runs, std::vector<double>(runs))};
+  Sums sums{RunProducts(runs, std::vector<double>(runs)),
+            RunProducts(runs, std::vector<double>(runs))};
   const double e = first.epsilon(), values = double(first.pixels() * first.colours());
   std::vector<double> d(runs);
   for (std::size_t p = 0; p < first.pixels(); ++p)

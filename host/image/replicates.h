@@ -28,6 +28,19 @@ struct RunSplit {
   ErrorSplit absolute, relative;
 };
 
+/// products[k][l]: mean of (x_k - ref)(x_l - ref) over pixels and channels, weighed or not.
+using RunProducts = std::vector<std::vector<double>>;
+
+struct VarianceAndBias {
+  double variance = 0, bias2 = 0;
+};
+
+/// Of runs that count so often each, two at least in all. With d_k = x_k - ref: the mean over runs
+/// of d is sum(n_k d_k) / N, s^2 = (sum(n_k d_k^2) - N mean(d)^2) / (N - 1), and
+/// bias^2 = mean(d)^2 - s^2 / N: the noise that is left in the mean is no bias. The reference's
+/// variance is still in bias^2.
+VarianceAndBias split_products(const RunProducts& products, const std::vector<int>& counts);
+
 /// At least two runs. Throws InputError if sizes or colour channels differ.
 RunSplit split_error(const std::vector<const Image*>& runs, const Image& reference);
 

@@ -147,6 +147,11 @@ std::vector<std::string> unreachable_paths(const Integrator& method, const Scene
   return describe(not_aimed_at(method), never_found(method, scene), scene);
 }
 
+double least_effective(const Integrator& method, const SceneOptics& scene) {
+  constexpr double enough_hits = 300;
+  return chance_paths(method, scene).empty() ? 0 : enough_hits;
+}
+
 std::vector<std::string> chance_paths(const Integrator& method, const SceneOptics& scene) {
   if (method.merges_everywhere()) return {};
   return describe(not_aimed_at(method), scene.lights & EMITTERS & ~never_found(method, scene),

@@ -28,6 +28,11 @@ std::vector<std::string> unreachable_paths(const Integrator& method, const Scene
 /// noisy if that is small. (The environment lies behind every gap, so chance serves it well.)
 std::vector<std::string> chance_paths(const Integrator& method, const SceneOptics& scene);
 
+/// How many pixels of group images must carry an estimate of error that is believed
+/// (ErrorEstimate): where light is found by chance alone, a few hits say too little of those to
+/// come (accuracy.md 4: 300 restore the nominal level of a test); else any number.
+double least_effective(const Integrator& method, const SceneOptics& scene);
+
 /// Names of methods that draw paths which are unreachable for another one.
 struct Seers {
   std::vector<std::string> all, some;  ///< every one of those paths; only a part of them

@@ -30,6 +30,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/relmse.h"
 #include "base/statistics.h"
 #include "render/sampler.h"
 
@@ -101,8 +102,9 @@ std::uint64_t ErrorEstimate::host_bytes(std::uint64_t pixels) {
          (most_groups * sizeof(float) + 2 * sizeof(double));
 }
 
-ErrorEstimate::ErrorEstimate(double target, const Film& film)
+ErrorEstimate::ErrorEstimate(double target, const Film& film, double least_effective)
     : target_(target),
+      least_effective_(least_effective),
       unit_(film.block_size),
       kept_(kept_pixels(film.window)),
       passes_(film.passes.count()),
@@ -172,7 +174,7 @@ void ErrorEstimate::finish(const Film& film) {
 void ErrorEstimate::look(const Film& film) {
   if (groups_.size() < least_groups) return;
   const FilmSummary film_says = summarise(film);
-  const double epsilon = relmse_epsilon * film_says.mean, n = double(groups_.size());
+  const double epsilon = RELMSE_EPSILON * film_says.mean, n = double(groups_.size());
   ErrorLook now;
   now.passes = film.passes.count();
   now.groups = groups_.size();
@@ -191,7 +193,8 @@ void ErrorEstimate::look(const Film& film) {
     const double k = double(looks_.size() + 1);
     const double alpha = (1 - confidence) / (k * (k + 1));
     const double t = student_quantile(1 - alpha, n - 1);
-    now.upper = now.expected * std::exp(t * std::sqrt(std::log1p(spread2) * (1 + 1 / n)));
+    if (now.effective >= least_effective_)
+      now.upper = now.expected * std::exp(t * std::sqrt(std::log1p(spread2) * (1 + 1 / n)));
   }
   looks_.push_back(now);
 }

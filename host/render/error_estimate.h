@@ -34,8 +34,9 @@ class ErrorEstimate {
   static std::uint64_t host_bytes(std::uint64_t pixels);
 
   /// `target`: the root of relMSE that is wanted. The passes that `film` has already are part of
-  /// the picture but of no group.
-  ErrorEstimate(double target, const Film& film);
+  /// the picture but of no group. Looks that fewer pixels of groups carry than `least_effective`
+  /// (ErrorLook::effective) bound nothing.
+  ErrorEstimate(double target, const Film& film, double least_effective = 0);
 
   /// An earlier render found this bound for the very film of the constructor.
   void recall(double upper_root);
@@ -60,7 +61,7 @@ class ErrorEstimate {
   void join_pairs();
   void look(const Film& film);
 
-  double target_;
+  double target_, least_effective_;
   std::uint64_t unit_;                      ///< passes that are independent of others only together
   std::vector<std::size_t> kept_;           ///< pixels of which groups keep means
   std::uint64_t passes_ = 0;                ///< of the film at the last border

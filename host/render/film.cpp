@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/phase_clock.h"
+#include "base/relmse.h"
 #include "shared/film_sums.h"
 
 namespace pellucid {
@@ -157,7 +158,7 @@ FilmSummary summarise(const Film& film) {
     out.relmse = std::numeric_limits<double>::quiet_NaN();
     return out;
   }
-  const double e = relmse_epsilon * out.mean;
+  const double e = RELMSE_EPSILON * out.mean;
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
     const PixelStats s = statistics(i);
     for (std::size_t c = 0; c < 3; ++c) {

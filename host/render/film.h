@@ -66,9 +66,6 @@ class Film {
   Sums sums(std::size_t pixel) const;
 };
 
-/// e of relMSE, in means of the picture.
-constexpr double relmse_epsilon = 0.01;
-
 struct FilmSummary {
   std::uint64_t iterations = 0;  ///< of each pixel
   std::uint64_t rays = 0;        ///< of all pixels

@@ -34,6 +34,7 @@ struct RenderOptions {
   std::optional<PassRange> passes;    ///< global passes to have in the end
   std::optional<double> seconds;      ///< ends the render after the iteration in hand
   std::optional<double> known_error;  ///< bound of it for the film to go on with
+  double least_effective = 0;         ///< see ErrorEstimate
   std::optional<double> error;        ///< root of relMSE: ends it when an ErrorEstimate says so
   std::uint64_t seed = 0;
   std::optional<uint> max_depth;  ///< segments; absent = unlimited

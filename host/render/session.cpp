@@ -58,7 +58,7 @@ Session::Session(const Device& device, const PackedScene& scene, const Integrato
                    "a film to go on with is of the same picture");
     film_ = std::move(*start);
   }
-  if (options_.error) error_.emplace(*options_.error, film_);
+  if (options_.error) error_.emplace(*options_.error, film_, options_.least_effective);
   if (options_.error && options_.known_error) error_->recall(*options_.known_error);
 }
 

@@ -77,11 +77,16 @@ void Judge::measure_slope() {
                     v_.slope, v_.slope_low, v_.slope_high, v_.slope_from, v_.slope_to));
 }
 
-/// A bias that no time removes and that alone is more than the target allows.
+/// A bias that no time removes and that alone is more than the target allows; only a reference that
+/// is known well enough can tell.
 bool Judge::floors() const {
-  if (option_.merges || option_.splits.empty()) return false;
+  constexpr double well = 0.1;
+  const double target2 = study_.target * study_.target;
+  if (option_.merges || option_.splits.empty() || !study_.reference.variance_known ||
+      study_.reference.relmse > well * target2)
+    return false;
   const Split& last = option_.splits.back();
-  return 2 * last.bias2 - last.bias2_upper90 > study_.target * study_.target;
+  return certain_bias(last.bias2 - target2, last.bias2_upper90 - target2, runs()) > 0;
 }
 
 /// Whether the shortest runs are surely good enough, so that nothing is known of shorter ones.
@@ -172,7 +177,7 @@ Verdict paired_verdict(const Study& s, const PrecisionPair& pair, const StudyOpt
                        const Verdict& of_strict) {
   Verdict v = of_strict;
   // Significant, or nothing at all.
-  const double bias2 = 2 * pair.bias2 - pair.bias2_upper90 > 0 ? pair.bias2 : 0;
+  const double bias2 = certain_bias(pair.bias2, pair.bias2_upper90, pair.runs);
   const double left = s.target * s.target - bias2;
   CurveFit fit = fit_curve(mean_curve(strict.runs), strict.merges, strict.radius_alpha);
   const std::optional<double> now = fit.reaches(s.target * s.target), then = fit.reaches(left);
@@ -186,6 +191,7 @@ Verdict paired_verdict(const Study& s, const PrecisionPair& pair, const StudyOpt
   v.seconds *= pair.time_ratio * longer;
   v.low *= pair.time_low * longer, v.high *= pair.time_high * longer;
   v.noise *= std::pow(pair.time_ratio, v.exponent);
+  v.beyond_factor *= longer;  // its longest run would take as much longer as its time to the target
   if (v.kind == TargetKind::measured) v.kind = TargetKind::interpolated;
   constexpr double harmless = 0.1;  // of the target
   if (std::sqrt(bias2) > harmless * s.target)
@@ -196,7 +202,7 @@ Verdict paired_verdict(const Study& s, const PrecisionPair& pair, const StudyOpt
 
 const StudyOption* strict_sibling(const Study& s, const StudyOption& option, std::size_t& at) {
   for (at = 0; at < s.options.size(); ++at)
-    if (s.options[at].integrator == option.integrator && s.options[at].precision == "strict")
+    if (s.options[at].integrator == option.integrator && s.options[at].plain())
       return &s.options[at];
   return nullptr;
 }
@@ -213,7 +219,23 @@ void judge_pairs(Study& s) {
   }
 }
 
+/// A reference whose own noise is not small beside what is judged (accuracy.md 5).
+void check_reference_noise(Study& s) {
+  constexpr double most = 0.1;
+  if (s.reference.relmse > most * s.target * s.target)
+    s.warnings.push_back(fmt::format(
+        "the reference's own noise, {:.2g} %, is not small beside the target: intervals hold the "
+        "spread of runs, not that of the reference, and no floor is claimed",
+        100 * std::sqrt(s.reference.relmse)));
+}
+
 }  // namespace
+
+std::string StudyOption::name() const {
+  const std::string plain_name = integrator + " " + precision;
+  return radius_factor == 1 ? plain_name
+                            : fmt::format("{} (radius x{:g})", plain_name, radius_factor);
+}
 
 void analyse(Study& s) {
   check_reference_numbers(s);
@@ -221,6 +243,7 @@ void analyse(Study& s) {
   for (const StudyOption& option : s.options) s.verdicts.push_back(Judge(s, option).verdict());
   judge_pairs(s);
   check_reference(s);
+  check_reference_noise(s);
   check_machine(s);
   recommend(s);
 }

@@ -97,7 +97,8 @@ void check_reference(Study& s) {
     ++judged;
     brighter += v.energy_low > 1, darker += v.energy_high < 1;
   }
-  if (judged == 0 || (brighter < judged && darker < judged)) return;
+  // One alone may itself be the one that is wrong.
+  if (judged < 2 || (brighter < judged && darker < judged)) return;
   bool flagged = false;  // by the stricter test
   for (const Verdict& v : s.verdicts)
     for (const std::string& flag : v.flags) flagged |= flag.rfind("its pictures have", 0) == 0;
@@ -110,8 +111,8 @@ void check_reference(Study& s) {
 }
 
 void check_machine(Study& s) {
-  constexpr double most_load = 0.05, most_change = 0.1;
-  if (s.machine.foreign_load > most_load)
+  constexpr double most_change = 0.1;
+  if (s.machine.foreign_load > DISTURBING_LOAD)
     s.warnings.push_back(fmt::format("disturbed: other programs took {:.0f} % of the machine",
                                      100 * s.machine.foreign_load));
   std::vector<double> first, last, all;

@@ -16,6 +16,9 @@ void check_spread(const StudyOption& option, Verdict& verdict);
 
 /// After all verdicts: where all unbiased methods are off alike, it is the reference that is wrong.
 void check_reference(Study& study);
+/// Share of the machine beside which a study is disturbed.
+constexpr double DISTURBING_LOAD = 0.05;
+
 /// Warns of other programs on the machine, and of a clock that drifts.
 void check_machine(Study& study);
 

@@ -17,11 +17,23 @@ Contender::Contender(const StudyStage& stage, const Integrator& method,
     options_.plan.float_mode = find_float_mode(precision);
 }
 
+Contender Contender::with_radius(double factor) const {
+  Contender other = *this;
+  other.options_.radius = factor * radius();
+  other.radius_factor_ = factor * radius_factor_;
+  return other;
+}
+
+double Contender::radius() const {
+  if (!method_->wishes.has(INTG_MERGE)) return 0;
+  return options_.radius.value_or(default_radius(stage_->packed, options_.light_path_count()));
+}
+
 void Contender::run(std::uint64_t seed, const std::vector<std::uint64_t>& ladder,
                     const std::function<void(const LadderStep&)>& step) {
   const Timer whole;
   const DeviceInfo& info = stage_->device.info();
-  const Clock clock{info.cpu, int(std::max(1u, info.compute_units))};
+  const Clock clock{info.cpu, device_cores(info)};
   options_.seed = seed;
   options_.passes = PassRange{0, ladder.front()};
   Session session(stage_->device, stage_->packed, *method_, options_);
@@ -29,23 +41,22 @@ void Contender::run(std::uint64_t seed, const std::vector<std::uint64_t>& ladder
   RenderHooks hooks;
   hooks.stop = stage_->stop;
   LadderStep at;
-  double wall = 0;
   for (std::uint64_t spp : ladder) {
     session.set_passes({0, spp});
     bool complete = true;
     at.rung.seconds += clock([&] {
       const double before = session.render_seconds();
       complete = session.run(hooks);
-      wall += session.render_seconds() - before;
       return session.render_seconds() - before;
     });
     if (!complete || stage_->stop()) throw StudyStopped();
     at.rung.spp = spp;
+    at.rung.wall_seconds = session.render_seconds();
     at.picture = film_image(session.film(), false, false).data;
     step(at);
   }
-  overhead_ = std::min(overhead_, whole.seconds() - wall);
-  wall_ += wall;
+  overhead_ = std::min(overhead_, whole.seconds() - at.rung.wall_seconds);
+  wall_ += at.rung.wall_seconds;
   account(session, ladder.back());
 }
 
@@ -84,6 +95,8 @@ void Contender::describe(StudyOption& option) const {
   option.precision = precision_;
   option.merges = method_->wishes.has(INTG_MERGE);
   option.radius_alpha = option.merges ? options_.radius_alpha : 1;
+  option.radius = radius();
+  option.radius_factor = radius_factor_;
   option.setup_seconds = setup_seconds_;
   option.memory_bytes = memory_bytes_;
   option.wrong = wrong_;

@@ -30,6 +30,8 @@ struct LadderStep {
 class Contender {
  public:
   Contender(const StudyStage& stage, const Integrator& method, const std::string& precision);
+  /// This one, what it knows of its costs included, with another radius of merging.
+  Contender with_radius(double factor) const;
 
   /// Renders through the ladder of samples per pixel and hands out the picture at each rung; the
   /// clock stands still meanwhile. Throws StudyStopped.
@@ -43,6 +45,7 @@ class Contender {
   const Integrator& method() const { return *method_; }
   const std::string& precision() const { return precision_; }
   RenderOptions& options() { return options_; }
+  double radius() const;  ///< of the first pass, in scene units; 0: it merges nothing
   /// Wall seconds that one more run to `spp` will take, by all runs so far.
   double cost(std::uint64_t spp) const;
   /// The most samples per pixel of a run that takes no longer than `seconds`; 0: not even its
@@ -55,6 +58,7 @@ class Contender {
   const StudyStage* stage_;
   const Integrator* method_;
   std::string precision_;
+  double radius_factor_ = 1;
   RenderOptions options_;
   /// Wall seconds beside rendering: the least of any run, since the first builds kernels.
   double overhead_ = std::numeric_limits<double>::max();

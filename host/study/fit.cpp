@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/statistics.h"
+
 namespace pellucid {
 namespace {
 
@@ -107,6 +109,13 @@ std::optional<double> curve_slope(const std::vector<CurvePoint>& curve) {
   const double det = n * xx - x * x;
   if (n < 2 || !(det > 0)) return std::nullopt;
   return (n * xy - x * y) / det;
+}
+
+double certain_bias(double bias2, double upper90, int runs) {
+  constexpr double sure = 0.999, bound = 0.9;
+  if (runs < 2 || !std::isfinite(bias2)) return 0;
+  const double error = (upper90 - bias2) / student_quantile(bound, double(runs - 1));
+  return bias2 > student_quantile(sure, double(runs - 1)) * error ? bias2 : 0;
 }
 
 std::optional<Jackknife> jackknife(int runs,

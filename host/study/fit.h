@@ -37,6 +37,10 @@ CurveFit fit_curve(const std::vector<CurvePoint>& curve, bool merges, double rad
 /// Slope of log relMSE over log seconds by least squares over all rungs above 0; none below two.
 std::optional<double> curve_slope(const std::vector<CurvePoint>& curve);
 
+/// A squared bias if it is there at 99.9 %, else 0; `upper90` is its one-sided bound over so many
+/// runs.
+double certain_bias(double bias2, double upper90, int runs);
+
 /// An estimate and its standard error over the runs, by the jackknife.
 struct Jackknife {
   double value = 0, error = 0;

@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "base/clock.h"
 
@@ -34,6 +36,13 @@ double MachineLoad::share() const {
   const double all = end.all - start_.all;
   if (!(all > 0)) return 0;
   return std::clamp(((end.busy - start_.busy) - (end.ours - start_.ours)) / all, 0.0, 1.0);
+}
+
+double foreign_load_now() {
+  constexpr auto moment = std::chrono::milliseconds(500);
+  const MachineLoad load;
+  std::this_thread::sleep_for(moment);
+  return load.share();
 }
 
 }  // namespace pellucid

@@ -4,6 +4,9 @@
 namespace pellucid {
 
 /// From its making on. Knows nothing where the system does not tell (then share() is 0).
+/// Share that other processes take in half a second during which this one sleeps.
+double foreign_load_now();
+
 class MachineLoad {
  public:
   MachineLoad();

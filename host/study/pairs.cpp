@@ -44,7 +44,7 @@ std::optional<PrecisionPair> compare_precision(
   const Timer timer;
   Contender strict(stage, method, "strict"), relaxed(stage, method, job.precision);
   PrecisionPair pair;
-  pair.integrator = method.name, pair.precision = job.precision;
+  pair.integrator = method.name, pair.precision = job.precision, pair.runs = pairs;
   tell(fmt::format("precision: {} {}", method.name, job.precision));
   double divergent = 0;
   for (int k = 0; k < pairs; ++k)

@@ -5,19 +5,17 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/relmse.h"
 #include "base/statistics.h"
+#include "image/replicates.h"
 #include "study/fit.h"
 
 namespace pellucid {
 
 std::vector<double> relmse_weights(const Picture& reference) {
-  constexpr double floor_share = 0.01;
-  const double mean = energy_of(reference) / double(reference.size());
+  const double e = RELMSE_EPSILON * energy_of(reference) / double(reference.size());
   std::vector<double> weights;
-  for (float v : reference) {
-    const double square = double(v) * double(v) + std::pow(floor_share * mean, 2);
-    weights.push_back(square > 0 ? 1 / square : 0);
-  }
+  for (float v : reference) weights.push_back(relmse_weight(double(v), e));
   return weights;
 }
 
@@ -40,43 +38,43 @@ bool all_finite(const Picture& picture) {
   return std::all_of(picture.begin(), picture.end(), [](float v) { return std::isfinite(v); });
 }
 
-Picture PictureStack::mean(int leave) const {
-  const double n = double(size()) - (leave >= 0 ? 1 : 0);
+Picture PictureStack::mean() const {
   std::vector<double> sum(pictures_.at(0).size());
-  for (int k = 0; k < size(); ++k) {
-    if (k == leave) continue;
-    const Picture& picture = pictures_[std::size_t(k)];
+  for (const Picture& picture : pictures_)
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += double(picture[i]);
-  }
   Picture mean(sum.size());
-  for (std::size_t i = 0; i < sum.size(); ++i) mean[i] = float(sum[i] / n);
+  for (std::size_t i = 0; i < sum.size(); ++i) mean[i] = float(sum[i] / double(size()));
   return mean;
 }
 
-double PictureStack::variance(const std::vector<double>& weights, int leave) const {
-  const Picture middle = mean(leave);
-  const double n = double(size()) - (leave >= 0 ? 1 : 0);
-  PELLUCID_CHECK(n >= 2, "a variance needs two pictures");
+double PictureStack::variance(const std::vector<double>& weights) const {
+  PELLUCID_CHECK(size() >= 2, "a variance needs two pictures");
+  const Picture middle = mean();
   double sum = 0;
-  for (int k = 0; k < size(); ++k)
-    if (k != leave) sum += weighted_distance(pictures_[std::size_t(k)], middle, weights);
-  return sum / (n - 1);
-}
-
-double PictureStack::bias2(const Picture& reference, const std::vector<double>& weights,
-                           double reference_relmse, int leave) const {
-  const double n = double(size()) - (leave >= 0 ? 1 : 0);
-  return weighted_distance(mean(leave), reference, weights) - variance(weights, leave) / n -
-         reference_relmse;
+  for (const Picture& picture : pictures_) sum += weighted_distance(picture, middle, weights);
+  return sum / double(size() - 1);
 }
 
 Split PictureStack::split(const Picture& reference, const std::vector<double>& weights,
                           double reference_relmse) const {
   constexpr double upper = 0.9;  // one-sided
+  const std::size_t runs = pictures_.size(), values = reference.size();
+  RunProducts products(runs, std::vector<double>(runs));
+  for (std::size_t k = 0; k < runs; ++k)
+    for (std::size_t l = 0; l <= k; ++l) {
+      const Picture &a = pictures_[k], &b = pictures_[l];
+      double sum = 0;
+      for (std::size_t i = 0; i < values; ++i)
+        sum += weights[i] * (double(a[i]) - double(reference[i])) *
+               (double(b[i]) - double(reference[i]));
+      products[k][l] = products[l][k] = sum / double(values);
+    }
   Split split;
-  split.variance = variance(weights);
+  split.variance = split_products(products, std::vector<int>(runs, 1)).variance;
   const auto bias = jackknife(size(), [&](int leave) -> std::optional<double> {
-    return bias2(reference, weights, reference_relmse, leave);
+    std::vector<int> counts(runs, 1);
+    if (leave >= 0) counts[std::size_t(leave)] = 0;
+    return split_products(products, counts).bias2 - reference_relmse;
   });
   split.bias2 = bias->value;
   split.bias2_upper90 = bias->value + student_quantile(upper, double(size() - 1)) * bias->error;

@@ -28,18 +28,15 @@ class PictureStack {
   const std::vector<Picture>& pictures() const { return pictures_; }
   int size() const { return int(pictures_.size()); }
 
-  /// Without number `leave`, if that is one.
-  Picture mean(int leave = -1) const;
+  Picture mean() const;
   /// Mean of w s^2, s^2 the unbiased variance of a value over the pictures; needs two of them.
-  double variance(const std::vector<double>& weights, int leave = -1) const;
+  double variance(const std::vector<double>& weights) const;
   /// relMSE of one of them against `reference`, split into what their spread and what their mean
   /// has of it (accuracy.md 2); `reference_relmse` is the reference's own variance. Needs three.
   Split split(const Picture& reference, const std::vector<double>& weights,
               double reference_relmse) const;
 
  private:
-  double bias2(const Picture& reference, const std::vector<double>& weights,
-               double reference_relmse, int leave) const;
   std::vector<Picture> pictures_;
 };
 

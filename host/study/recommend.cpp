@@ -14,7 +14,7 @@
 namespace pellucid {
 namespace {
 
-/// Methods from the simplest on; then the precisions.
+/// Methods from the simplest on; then the precisions; then radii that are not the default.
 int simplicity(const StudyOption& option) {
   static const std::vector<std::string> methods{"naive", "nee",  "path", "light",
                                                 "bdpt",  "sppm", "bpm",  "vcm"};
@@ -22,8 +22,9 @@ int simplicity(const StudyOption& option) {
   const auto place = [](const std::vector<std::string>& list, const std::string& name) {
     return int(std::find(list.begin(), list.end(), name) - list.begin());
   };
-  return place(methods, option.integrator) * int(precisions.size() + 1) +
-         place(precisions, option.precision);
+  return 2 * (place(methods, option.integrator) * int(precisions.size() + 1) +
+              place(precisions, option.precision)) +
+         (option.radius_factor == 1 ? 0 : 1);
 }
 
 bool timed(const Verdict& v) {
@@ -51,20 +52,18 @@ class Chooser {
 
 std::vector<int> Chooser::candidates() const {
   std::vector<int> out;
-  for (int i = 0; i < int(s_.options.size()); ++i) {
-    const Verdict& v = s_.verdicts[std::size_t(i)];
-    if (s_.options[std::size_t(i)].state == OptionState::main && timed(v) && v.flags.empty())
-      out.push_back(i);
-  }
+  for (int i = 0; i < int(s_.options.size()); ++i)
+    if (eligible(s_.options[std::size_t(i)], s_.verdicts[std::size_t(i)])) out.push_back(i);
   return out;
 }
 
 /// Those that its interval is of: a relaxed option has its strict sibling's.
 std::size_t Chooser::runs_of(const StudyOption& option) const {
-  for (const StudyOption& o : s_.options)
-    if (o.integrator == option.integrator && o.precision == "strict" && !o.runs.empty())
-      return o.runs.size();
-  return std::max<std::size_t>(option.runs.size(), 2);
+  constexpr std::size_t least = 2;
+  if (option.precision != "strict")
+    for (const StudyOption& o : s_.options)
+      if (o.integrator == option.integrator && o.plain()) return std::max(o.runs.size(), least);
+  return std::max(option.runs.size(), least);
 }
 
 /// Standard error of log seconds.
@@ -86,7 +85,7 @@ std::pair<double, double> Chooser::time_ratio(const StudyOption& option) const {
 /// pairs say counts: noise is theirs in common.
 bool Chooser::differ(int a, int b) const {
   const StudyOption &x = s_.options[std::size_t(a)], &y = s_.options[std::size_t(b)];
-  if (x.integrator == y.integrator) {
+  if (x.integrator == y.integrator && x.radius_factor == y.radius_factor) {
     const auto [x_low, x_high] = time_ratio(x);
     const auto [y_low, y_high] = time_ratio(y);
     return x_high < y_low || y_high < x_low;
@@ -182,6 +181,10 @@ void Chooser::choose() {
 }
 
 }  // namespace
+
+bool eligible(const StudyOption& option, const Verdict& verdict) {
+  return option.state == OptionState::main && timed(verdict) && verdict.flags.empty();
+}
 
 void recommend(Study& study) {
   Chooser(study).choose();

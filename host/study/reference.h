@@ -14,13 +14,22 @@ struct Reference {
   bool read = false;  ///< from a file
 };
 
-/// R, G, B of a picture file; its variance from channels variance.R, .G, .B, else taken as 0, which
-/// `facts.doubt` says. Throws InputError where size or channels do not fit, or a value is no
-/// number.
-Reference read_reference(const std::string& file, int width, int height);
+/// What a file must be a picture of.
+struct ReferenceWanted {
+  int width = 0, height = 0;
+  std::string scene_hash, settings;             ///< as renders store them
+  std::uint64_t first_seed = 0, last_seed = 0;  ///< of the study's own runs
+};
+
+/// R, G, B of a picture file; its variance from channels variance.R, .G, .B, else it is unknown,
+/// which `facts.doubt` says, as it does of another scene's hash; untrusted if made by a method that
+/// did not see all paths. Throws InputError where size, depth, filter or channels do not fit, where
+/// it shares random numbers with the study, or where a value is no number.
+Reference read_reference(const std::string& file, const ReferenceWanted& wanted);
 
 /// By two voices with several runs each, as long as `seconds` allow, weighed by their variances;
-/// untrusted where their light differs by more than chance. Progress is told by `tell`.
+/// untrusted where their light differs by more than chance, in all or in any tile. Progress is told
+/// by `tell`.
 Reference make_reference(Contender& one, Contender& other, std::uint64_t seed, double seconds,
                          const std::function<void(const std::string&)>& tell);
 

@@ -24,7 +24,9 @@
 #include "study/machine_load.h"
 #include "study/pairs.h"
 #include "study/race.h"
+#include "study/recommend.h"
 #include "study/reference.h"
+#include "study/tiles.h"
 
 namespace pellucid {
 namespace {
@@ -32,9 +34,12 @@ namespace {
 // Shares of the budget (accuracy.md 9); what one leaves, the next has.
 constexpr double until_reference = 0.4, until_main = 0.9;
 constexpr std::uint64_t pilot_spp = 2 * SOBOL_BLOCK;
-/// Seeds of the stages, far enough apart that none has another's.
+/// Seeds of the stages, far enough apart that none has another's, nor one that people give to a
+/// render that may become a reference.
 constexpr std::uint64_t pilot_seeds = 1000000, reference_seeds = 2000000, pair_seeds = 3000000,
-                        seeds_of_a_study = 10000000;
+                        main_seeds = 4000000, seeds_of_a_study = 10000000;
+/// Radii that the best method that merges is tried with, too: a lucky one is no merit of it.
+constexpr double other_radii[] = {0.5, 2.0};
 
 /// Thrown between two runs when nothing is left; what comes after has no figures.
 struct BudgetSpent {};
@@ -49,11 +54,13 @@ class Runner {
   void enlist();
   void pilot();
   void refer();
+  void add_radii();
   void replicate();
   void replicate_one(Entry& entry, int k);
+  std::vector<Entry*> quickest();
   void compare_precisions();
   void finish(Entry& entry);
-  Study gather();
+  Study gather(bool whole);
   std::uint64_t seed(std::uint64_t stage, int k) const {
     return request_.seed * seeds_of_a_study + stage + std::uint64_t(k);
   }
@@ -67,6 +74,7 @@ class Runner {
   std::vector<Entry> entries_;
   Reference reference_;
   std::vector<PrecisionPair> pairs_;
+  std::vector<std::string> notes_;
 };
 
 /// Before every run: what it is, and how long the whole study will still take.
@@ -138,8 +146,10 @@ Entry* other_voice(const Ranking& voices) {
 /// Which methods may speak for the truth: unbiased, and aiming at all paths; the quickest two.
 void Runner::refer() {
   if (!request_.reference.empty()) {
-    const RenderOptions& o = stage_.options;
-    reference_ = read_reference(request_.reference, o.window().width, o.window().height);
+    const Window window = stage_.options.window();
+    reference_ = read_reference(
+        request_.reference, {window.width, window.height, request_.scene_hash, request_.settings,
+                             seed(main_seeds, 0), seed(main_seeds, main_runs - 1)});
     return;
   }
   const double seconds = until_reference * request_.budget_seconds - clock_.seconds();
@@ -165,15 +175,35 @@ void Runner::refer() {
     reference_ = make_reference(*unbiased[0].second->contender, *other_voice(unbiased)->contender,
                                 seed(reference_seeds, 0), seconds, say);
   } else {
-    const double radius = default_radius(stage_.packed, stage_.options.light_path_count());
-    reference_ = extrapolate_reference(*merging[0].second->contender, radius,
-                                       seed(reference_seeds, 0), seconds, say);
+    const Contender& best = *merging[0].second->contender;
+    reference_ = extrapolate_reference(best, best.radius(), seed(reference_seeds, 0), seconds, say);
   }
+}
+
+/// The most promising method that merges, with other radii; these are the first to be left out
+/// where time is short.
+void Runner::add_radii() {
+  const Entry* best = nullptr;
+  for (Entry* entry : racing(entries_))
+    if (entry->option.merges && entry->option.state == OptionState::main &&
+        (!best || entry->option.pilot_efficiency > best->option.pilot_efficiency))
+      best = entry;
+  if (!best) return;
+  std::vector<Entry> others;
+  for (double factor : other_radii) {
+    Entry other;
+    other.contender = std::make_unique<Contender>(best->contender->with_radius(factor));
+    other.option.chance = best->option.chance;
+    other.asked = true;
+    other.contender->describe(other.option);
+    others.push_back(std::move(other));
+  }
+  for (Entry& other : others) entries_.push_back(std::move(other));
 }
 
 void Runner::replicate_one(Entry& entry, int k) {
   StudyRun run;
-  run.seed = seed(0, k);
+  run.seed = seed(main_seeds, k);
   const double energy = energy_of(reference_.picture);
   std::vector<Picture> pictures;
   entry.contender->run(run.seed, entry.ladder, [&](const LadderStep& step) {
@@ -205,35 +235,48 @@ void Runner::replicate() {
       if (clock_.seconds() + entry->contender->cost(entry->ladder.back()) >
           until_main * request_.budget_seconds)
         continue;  // it would end too late
-      tell(fmt::format("round {} of {}: {}", k + 1, main_runs, entry->contender->method().name));
+      tell(fmt::format("round {} of {}: {}", k + 1, main_runs, entry->option.name()));
       attempt(*entry, [&] { replicate_one(*entry, k); });
     }
+    request_.save(gather(false));
   }
 }
 
 /// The two quickest options once more, each beside itself in other precisions.
-void Runner::compare_precisions() {
-  Study so_far = gather();
+/// The two that would reach the target first, among those that may be recommended.
+std::vector<Entry*> Runner::quickest() {
+  Study so_far = gather(false);
   analyse(so_far);
-  std::vector<std::pair<double, Entry*>> quickest;
+  std::vector<std::pair<double, Entry*>> all;
   for (std::size_t i = 0; i < so_far.options.size(); ++i) {
-    const Verdict& v = so_far.verdicts[i];
-    if (so_far.options[i].state != OptionState::main || !(v.seconds > 0)) continue;
+    const StudyOption& option = so_far.options[i];
+    if (!eligible(option, so_far.verdicts[i]) || !option.plain()) continue;
     for (Entry& entry : entries_)
-      if (entry.asked && entry.option.integrator == so_far.options[i].integrator)
-        quickest.emplace_back(v.high, &entry);
+      if (entry.asked && entry.option.name() == option.name())
+        all.emplace_back(so_far.verdicts[i].high, &entry);
   }
-  std::sort(quickest.begin(), quickest.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   constexpr std::size_t most = 2;
-  quickest.resize(std::min(most, quickest.size()));
+  std::vector<Entry*> out;
+  for (const auto& [seconds, entry] : all)
+    if (out.size() < most) out.push_back(entry);
+  return out;
+}
+
+void Runner::compare_precisions() {
   std::vector<PairJob> jobs;
-  for (const auto& [seconds, entry] : quickest)
-    for (const std::string& precision : request_.precisions) {
-      const bool stores = entry->contender->method().uses(Bundle::light_vertices);
-      if (precision != "strict" && (precision != "compact" || stores))
+  const std::vector<Entry*> those = quickest();
+  for (const std::string& precision : request_.precisions) {
+    if (precision == "strict") continue;
+    const std::size_t before = jobs.size();
+    for (const Entry* entry : those)
+      if (precision != "compact" || entry->contender->method().uses(Bundle::light_vertices))
         jobs.push_back({entry->contender.get(), precision});
-    }
+    if (jobs.size() == before)
+      notes_.push_back(fmt::format("precision {} was not compared: {}", precision,
+                                   those.empty() ? "no method is known to reach the target"
+                                                 : "neither of the quickest two stores vertices"));
+  }
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const double left = request_.budget_seconds - clock_.seconds();
     try {
@@ -248,17 +291,24 @@ void Runner::compare_precisions() {
 }
 
 void Runner::finish(Entry& entry) {
-  entry.contender->describe(entry.option);
-  entry.option.splits.clear();
   for (std::size_t r = 0; r < entry.stacks.size() && entry.stacks[r].size() >= 3; ++r) {
     Split split =
         entry.stacks[r].split(reference_.picture, reference_.weights, reference_.facts.relmse);
     split.spp = entry.ladder[r];
     entry.option.splits.push_back(split);
   }
+  if (entry.stacks.empty() || entry.stacks.back().size() == 0) return;
+  const Window window = stage_.options.window();
+  entry.option.tiles = tile_errors({window.width, window.height}, entry.stacks.back(),
+                                   reference_.picture, reference_.weights);
+  const auto within =
+      std::count_if(entry.option.tiles.begin(), entry.option.tiles.end(),
+                    [&](double relmse) { return relmse <= request_.target * request_.target; });
+  entry.option.tiles_within = double(within) / double(entry.option.tiles.size());
 }
 
-Study Runner::gather() {
+/// All that is known; `whole`: with what is drawn from the pictures, which takes a while.
+Study Runner::gather(bool whole) {
   Study study;
   study.target = request_.target;
   study.budget_seconds = request_.budget_seconds;
@@ -269,16 +319,18 @@ Study Runner::gather() {
   study.machine.foreign_load = load_.share();
   for (Entry& entry : entries_) {
     if (!entry.asked) continue;
-    finish(entry);
+    entry.contender->describe(entry.option);
+    if (whole) finish(entry);
     study.options.push_back(entry.option);
   }
   study.pairs = pairs_;
+  study.warnings = notes_;
   for (const PrecisionPair& pair : pairs_) {
     StudyOption option;
     option.integrator = pair.integrator, option.precision = pair.precision;
     option.wrong = pair.wrong;
     for (const StudyOption& strict : study.options)
-      if (strict.integrator == pair.integrator && strict.precision == "strict")
+      if (strict.integrator == pair.integrator && strict.plain())
         option.merges = strict.merges, option.radius_alpha = strict.radius_alpha;
     study.options.push_back(option);
   }
@@ -314,6 +366,7 @@ Study Runner::run() {
       throw InputError(fmt::format("the reference ({}) is black: no error is relative to nothing",
                                    reference_.facts.source));
     eliminate(reference_, entries_);
+    add_radii();
     plan_ladders(until_main * request_.budget_seconds - clock_.seconds(), entries_);
     replicate();
     compare_precisions();
@@ -322,13 +375,18 @@ Study Runner::run() {
   } catch (const BudgetSpent&) {
     log_info("the budget of {} is spent", format_seconds(request_.budget_seconds));
   }
-  Study study = gather();
+  Study study = gather(true);
   study.complete = complete;
   add_pictures(reference_, entries_, study, request_.folder);
   return study;
 }
 
 }  // namespace
+
+std::uint64_t study_host_bytes(std::uint64_t pixels, std::size_t methods) {
+  constexpr std::uint64_t usual_rungs = 8, bytes_per_pixel = 3 * sizeof(float);
+  return pixels * bytes_per_pixel * usual_rungs * main_runs * (methods + std::size(other_radii));
+}
 
 Study run_study(const StudyStage& stage, const SceneOptics& optics, const StudyRequest& request) {
   return Runner(stage, optics, request).run();

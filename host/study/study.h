@@ -17,6 +17,7 @@ struct Rung {
   double seconds = 0;  ///< on the study's clock, of rendering alone
   double relmse = 0;
   double energy_ratio = 0;  ///< sum of the picture over that of the reference
+  double wall_seconds = 0;  ///< the same work by the clock on the wall
 };
 
 /// One render with a seed of its own, and what was seen of it on the way.
@@ -55,6 +56,7 @@ struct StudyOption {
   std::vector<std::string> chance;       ///< and those that it finds by chance alone
   bool merges = false;                   ///< biased by its radius, which shrinks
   double radius_alpha = 1;               ///< how fast, for merging methods
+  double radius = 0, radius_factor = 1;  ///< of the first pass, in scene units; over the default
   double setup_seconds = 0;              ///< kernels built and loaded
   std::uint64_t memory_bytes = 0;        ///< on the device
   std::uint64_t wrong = 0;               ///< device counters that tell of errors, and NaN
@@ -62,10 +64,17 @@ struct StudyOption {
   std::vector<StudyRun> runs;
   std::vector<Split> splits;  ///< by rung
   std::vector<PassSeconds> passes;
+  std::vector<double> tiles;  ///< relMSE of each tile of the picture, mean of the runs, last rung
+  double tiles_within = 0;    ///< share of them within the target then
   std::string picture, error_map;  ///< PNG files, base64; of one run at its last rung
 
-  std::string name() const { return integrator + " " + precision; }
+  /// In strict arithmetic and with its own radius: what variants are measured beside.
+  bool plain() const { return precision == "strict" && radius_factor == 1; }
+  std::string name() const;
 };
+
+/// Width and height of a tile in pixels; those at the right and lower edge may be smaller.
+constexpr int STUDY_TILE = 8;
 
 /// The same seeds in two precisions: noise cancels.
 struct PrecisionPair {
@@ -76,6 +85,7 @@ struct PrecisionPair {
                                                        ///< largest of the pairs
   double divergent_per_million = 0;                    ///< paths that took another turn
   std::uint64_t wrong = 0;  ///< as StudyOption::wrong, of the relaxed one
+  int runs = 0;             ///< pairs that bias and times are of
 };
 
 /// What errors are measured against.
@@ -85,8 +95,9 @@ struct StudyReference {
   double energy_error = 0;  ///< standard error of its sum, relative
   double disagreement = 0;  ///< of its two methods' sums, in standard errors
   bool trusted = true;
-  std::string doubt;    ///< why not, or what limits it
-  std::string picture;  ///< PNG, base64
+  std::string doubt;           ///< why not, or what limits it
+  std::string picture;         ///< PNG, base64
+  bool variance_known = true;  ///< else `relmse` is 0 for want of a figure
 };
 
 struct StudyMachine {

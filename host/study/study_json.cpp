@@ -20,20 +20,22 @@ NLOHMANN_JSON_SERIALIZE_ENUM(TargetKind, {{TargetKind::unknown, "unknown"},
                                           {TargetKind::extrapolated, "extrapolated"},
                                           {TargetKind::beyond, "beyond"},
                                           {TargetKind::never, "never"}})
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Rung, spp, seconds, relmse, energy_ratio)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Rung, spp, seconds, relmse, energy_ratio, wall_seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StudyRun, seed, rungs)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Split, spp, variance, bias2, bias2_upper90)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PassSeconds, name, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PrecisionPair, integrator, precision, spp, bias2, bias2_upper90,
-                                   time_ratio, time_low, time_high, divergent_per_million, wrong)
+                                   time_ratio, time_low, time_high, divergent_per_million, wrong,
+                                   runs)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StudyReference, source, relmse, energy_error, disagreement,
-                                   trusted, doubt, picture)
+                                   trusted, doubt, picture, variance_known)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StudyMachine, device, driver, version, clock, threads,
                                    foreign_load)
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StudyOption, integrator, precision, state, reason, unreachable,
-                                   chance, merges, radius_alpha, setup_seconds, memory_bytes, wrong,
-                                   pilot_efficiency, runs, splits, passes, picture, error_map)
+                                   chance, merges, radius_alpha, radius, radius_factor,
+                                   setup_seconds, memory_bytes, wrong, pilot_efficiency, runs,
+                                   splits, passes, tiles, tiles_within, picture, error_map)
 
 namespace {
 
@@ -70,9 +72,17 @@ double or_zero(const json& value) {
   return value.is_null() ? 0.0 : value.get<double>();
 }
 
+/// Of an enumeration: nlohmann takes any word that it does not know for the first one.
+template <typename E>
+E known(const json& word) {
+  const E value = word.get<E>();
+  if (json(value) != word) throw InputError(word.dump() + " is no word for this");
+  return value;
+}
+
 Verdict read_verdict(const json& j) {
   Verdict v;
-  v.kind = j.at("kind").get<TargetKind>();
+  v.kind = known<TargetKind>(j.at("kind"));
   v.seconds = or_zero(j.at("seconds_to_target"));
   v.low = or_zero(j.at("low")), v.high = or_zero(j.at("high"));
   v.beyond_factor = j.at("beyond_factor").get<double>();
@@ -101,6 +111,7 @@ void read_all(const json& j, Study& s) {
   j.at("machine").get_to(s.machine), j.at("reference").get_to(s.reference);
   j.at("pairs").get_to(s.pairs);
   for (const json& option : j.at("options")) {
+    known<OptionState>(option.at("state"));
     s.options.push_back(option.get<StudyOption>());
     s.verdicts.push_back(read_verdict(option));
   }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/relmse.h"
 #include "integrators/reach.h"
 #include "integrators/registry.h"
 #include "render_harness.h"
@@ -35,7 +36,7 @@ double relmse(const Picture& picture, const Means& reference) {
   const double n = 3.0 * double(reference.size());
   for (const auto& pixel : reference)
     for (double m : pixel) mean += m / n;
-  const double e = relmse_epsilon * mean;
+  const double e = RELMSE_EPSILON * mean;
   for (std::size_t i = 0; i < reference.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       const double m = reference[i][c], d = picture.pixels[i][c].mean - m;

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "integrators/reach.h"
 #include "integrators/registry.h"
 #include "render/launch.h"
 #include "scene/load.h"
@@ -201,7 +202,9 @@ Picture Renderer::render(const Sampling& run) {
 std::pair<Picture, ErrorEstimate> Renderer::render_to(double target, const Sampling& run) {
   const Launch launch = launch_for(run);
   Film film = black_film(launch);
-  ErrorEstimate error(target, film);
+  ErrorEstimate error(
+      target, film,
+      least_effective(find_integrator(build_.method), optics_of(packed_, run.max_depth)));
   while (film.passes.count() < run.spp && !error.reached()) {
     advance(film, launch, error.border());
     error.observe(film);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <random>
 
+#include "base/relmse.h"
 #include "render/error_estimate.h"
 #include "shared/film_sums.h"
 
@@ -53,7 +54,7 @@ double relmse(const Film& film) {
   for (int i = 0; i < side * side; ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       const double x = film.sums(std::size_t(i)).sum[c] / double(film.passes.count());
-      const double d = x - brightness(i), e = relmse_epsilon * mean;
+      const double d = x - brightness(i), e = RELMSE_EPSILON * mean;
       sum += d * d / (brightness(i) * brightness(i) + e * e);
     }
   return sum / (3 * side * side);

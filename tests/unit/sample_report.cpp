@@ -1,7 +1,7 @@
 // Writes the report of the sample study, for a browser to draw. Usage: sample_report FILE.html
 #include <fstream>
 
-#include "study/report_html.h"
+#include "study/report/html.h"
 #include "support/sample_study.h"
 
 int main(int argc, char** argv) {

@@ -260,8 +260,8 @@ TEST(StudyAnalysis, a_tiny_budget_is_inconclusive) {
 TEST(StudyAnalysis, precision) {
   World world(9200);
   world.add_relaxed({"path", 0.08, 0.01});
-  world.study().pairs = {{"path", "mad", 256, 1e-12, 1e-11, 0.8, 0.79, 0.81, 3, 0},
-                         {"path", "fast", 256, 1e-3, 1.01e-3, 0.5, 0.49, 0.51, 3, 0}};
+  world.study().pairs = {{"path", "mad", 256, 1e-12, 1e-11, 0.8, 0.79, 0.81, 3, 0, 5},
+                         {"path", "fast", 256, 1e-3, 1.01e-3, 0.5, 0.49, 0.51, 3, 0, 5}};
   analyse(world.study());
   const auto& v = world.study().verdicts;
   EXPECT_NEAR(v[1].seconds / v[0].seconds, 0.8, 1e-12);

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "base/error.h"
-#include "study/report_facts.h"
-#include "study/report_html.h"
-#include "study/report_table.h"
-#include "study/report_text.h"
+#include "study/report/facts.h"
+#include "study/report/html.h"
+#include "study/report/svg.h"
+#include "study/report/table.h"
+#include "study/report/text.h"
 #include "study/study_json.h"
-#include "study/svg.h"
 #include "support/sample_study.h"
 
 namespace pellucid {

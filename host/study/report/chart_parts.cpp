@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "study/markup.h"
-#include "study/report_charts.h"
-#include "study/report_facts.h"
-#include "study/report_style.h"
-#include "study/report_text.h"
-#include "study/svg.h"
+#include "study/report/charts.h"
+#include "study/report/facts.h"
+#include "study/report/markup.h"
+#include "study/report/style.h"
+#include "study/report/svg.h"
+#include "study/report/text.h"
 
 namespace pellucid {
 namespace {
@@ -89,7 +89,7 @@ std::string split_chart(const StudyOption& option) {
 }  // namespace
 
 std::string pass_chart(const Study& study) {
-  constexpr double WIDTH = 780, LEFT = 128, RIGHT = 90, ROW = 40, BAR = 14;
+  constexpr double WIDTH = 780, LEFT = 160, RIGHT = 90, ROW = 40, BAR = 14;
   double most = 0;
   std::vector<const StudyOption*> shown;
   for (std::size_t i : ranked(study)) {

@@ -54,6 +54,9 @@ std::string target_text(const Study& study, std::size_t option);
 /// "-0.96 [-1.02, -0.90]", or "-"
 std::string slope_text(const Verdict& verdict);
 
+/// Share of tiles within the target at the last rung, "87 %", or "-".
+std::string tiles_text(const StudyOption& option);
+
 /// "<= 0.12 %" without the sign: the upper 90 % bound at the last rung, or "-".
 std::string bias_text(const StudyOption& option);
 

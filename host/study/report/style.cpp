@@ -1,6 +1,6 @@
 // The style sheet. Colours are those of Okabe and Ito, which the colour-blind tell apart, with
 // marks of different shape besides; darker or lighter ones where the page's ground needs it.
-#include "study/report_style.h"
+#include "study/report/style.h"
 
 #include <fmt/format.h>
 
@@ -127,6 +127,10 @@ std::string method_colours(bool dark) {
 
 std::string method_class(const std::string& integrator) {
   return std::string("m-") + look_of(integrator).name;
+}
+
+std::string option_classes(const StudyOption& option) {
+  return method_class(option.integrator) + (option.plain() ? "" : " relaxed");
 }
 
 MarkShape method_mark(const std::string& integrator) {

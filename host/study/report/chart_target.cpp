@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/report_charts.h"
-#include "study/report_facts.h"
-#include "study/report_style.h"
-#include "study/report_text.h"
-#include "study/svg.h"
+#include "study/report/charts.h"
+#include "study/report/facts.h"
+#include "study/report/style.h"
+#include "study/report/svg.h"
+#include "study/report/text.h"
 
 namespace pellucid {
 namespace {
 
-constexpr double WIDTH = 780, LEFT = 128, RIGHT = 290, ROW = 24, TOP = 8, BOTTOM = 24;
+constexpr double WIDTH = 780, LEFT = 160, RIGHT = 290, ROW = 24, TOP = 8, BOTTOM = 24;
 
 bool timed(const Verdict& v) {
   return plausible(v.seconds) && v.kind != TargetKind::never && v.kind != TargetKind::unknown;
@@ -31,7 +31,7 @@ double high_of(const Verdict& v) {
 void draw_row(Svg& svg, const LogAxis& axis, double y, const StudyOption& option,
               const Verdict& v) {
   const std::string method = method_class(option.integrator);
-  const std::string classes = method + (option.precision == "strict" ? "" : " relaxed");
+  const std::string classes = option_classes(option);
   if (!timed(v)) return;
   if (v.kind == TargetKind::beyond) {  // an arrow: at least
     svg.line({axis.at(v.seconds), y}, {axis.end, y}, "range guess " + method);

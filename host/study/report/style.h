@@ -3,12 +3,16 @@
 
 #include <string>
 
-#include "study/svg.h"
+#include "study/report/svg.h"
+#include "study/study.h"
 
 namespace pellucid {
 
 /// Class of elements in a method's colour, "m-path"; "m-other" for methods not in the table.
 std::string method_class(const std::string& integrator);
+
+/// The same with "relaxed" for variants, which are drawn hollow.
+std::string option_classes(const StudyOption& option);
 
 MarkShape method_mark(const std::string& integrator);
 

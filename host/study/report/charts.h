@@ -16,6 +16,9 @@ std::string target_chart(const Study& study);
 /// Seconds of one sample per pixel, pass by pass.
 std::string pass_chart(const Study& study);
 
+/// The method with the least error times seconds in every tile of the picture.
+std::string tile_chart(const Study& study);
+
 /// Shares of variance and squared bias in the error, rung by rung: a chart for each option.
 std::string split_charts(const Study& study);
 

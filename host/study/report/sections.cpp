@@ -1,5 +1,5 @@
 // Tables, pictures and raw figures of the page.
-#include "study/report_sections.h"
+#include "study/report/sections.h"
 
 #include <fmt/format.h>
 
@@ -8,21 +8,19 @@
 #include <set>
 
 #include "base/text.h"
-#include "study/markup.h"
-#include "study/report_facts.h"
-#include "study/report_style.h"
-#include "study/report_table.h"
-#include "study/report_text.h"
+#include "study/report/facts.h"
+#include "study/report/markup.h"
+#include "study/report/style.h"
+#include "study/report/table.h"
+#include "study/report/text.h"
 
 namespace pellucid {
 namespace {
 
 /// The option's name with its colour.
-std::string name_cell(const std::string& integrator, const std::string& precision) {
-  const std::string classes =
-      "chip " + method_class(integrator) + (precision == "strict" ? "" : " relaxed");
-  return "<span class=\"w\"><span class=\"" + classes + "\"></span>" +
-         escaped(integrator + " " + precision) + "</span>";
+std::string name_cell(const StudyOption& option) {
+  return "<span class=\"w\"><span class=\"chip " + option_classes(option) + "\"></span>" +
+         escaped(option.name()) + "</span>";
 }
 
 std::string root_percent(double relmse) {
@@ -62,12 +60,12 @@ std::string figure(const std::string& images, const std::string& name, const std
 
 std::string run_table(const StudyOption& option) {
   HtmlTable table;
-  table.head = {"seed", "spp", "seconds", "relMSE", "error", "energy / reference"};
-  table.classes = {"n", "n", "n", "n", "n", "n"};
+  table.head = {"seed", "spp", "seconds", "on the wall", "relMSE", "error", "energy / reference"};
+  table.classes = {"n", "n", "n", "n", "n", "n", "n"};
   for (const StudyRun& run : option.runs)
     for (const Rung& r : run.rungs)
       table.rows.push_back({std::to_string(run.seed), std::to_string(r.spp), digits(r.seconds, 5),
-                            digits(r.relmse, 5),
+                            digits(r.wall_seconds, 5), digits(r.relmse, 5),
                             r.relmse > 0 ? percent(std::sqrt(r.relmse), 3) : "-",
                             digits(r.energy_ratio, 6)});
   return table.html();
@@ -83,17 +81,17 @@ std::string option_section(const Study& study) {
   table.classes = {"", "time", "n"};
   for (double t : times)
     table.head.push_back("error at " + duration(t, 1)), table.classes.push_back("n");
-  for (const char* head : {"slope [90 %]", "bias \u2264", "energy [90 %]"})
+  for (const char* head : {"tiles within", "slope [90 %]", "bias \u2264", "energy [90 %]"})
     table.head.push_back(head), table.classes.push_back("n");
   table.head.push_back("flags");
   table.classes.push_back("flags");
   for (std::size_t i : ranked(study)) {
     const StudyOption& option = study.options[i];
     const Verdict verdict = verdict_of(study, i);
-    std::vector<std::string> row{name_cell(option.integrator, option.precision),
-                                 target_text(study, i),
+    std::vector<std::string> row{name_cell(option), target_text(study, i),
                                  option.setup_seconds > 0 ? duration(option.setup_seconds) : "-"};
     for (double t : times) row.push_back(error_near(option, t));
+    row.push_back(tiles_text(option));
     row.push_back(slope_text(verdict));
     row.push_back(bias_text(option));
     row.push_back(option.runs.empty() ? "-" : energy_text(verdict));
@@ -118,10 +116,12 @@ std::string precision_section(const Study& study) {
   table.classes = {"", "n", "n", "n", "n", "n", "n", "n"};
   for (const PrecisionPair& pair : study.pairs) {
     const std::optional<FloorTime> floor = floor_time(study, pair);
+    StudyOption option;
+    option.integrator = pair.integrator, option.precision = pair.precision;
     table.rows.push_back(
-        {name_cell(pair.integrator, pair.precision), pair_bias_text(pair),
-         root_percent(pair.bias2_upper90), digits(pair.divergent_per_million, 3),
-         digits(pair.time_ratio, 3), digits(pair.time_low, 3) + ", " + digits(pair.time_high, 3),
+        {name_cell(option), pair_bias_text(pair), root_percent(pair.bias2_upper90),
+         digits(pair.divergent_per_million, 3), digits(pair.time_ratio, 3),
+         digits(pair.time_low, 3) + ", " + digits(pair.time_high, 3),
          floor ? (floor->at_least ? "\u2265 " : "") + duration(floor->seconds) : "-",
          std::to_string(pair.spp)});
   }

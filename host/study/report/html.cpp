@@ -1,15 +1,15 @@
 // The page of a study, from verdict to raw figures.
-#include "study/report_html.h"
+#include "study/report/html.h"
 
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "study/markup.h"
-#include "study/report_charts.h"
-#include "study/report_facts.h"
-#include "study/report_sections.h"
-#include "study/report_style.h"
-#include "study/report_text.h"
+#include "study/report/charts.h"
+#include "study/report/facts.h"
+#include "study/report/markup.h"
+#include "study/report/sections.h"
+#include "study/report/style.h"
+#include "study/report/text.h"
 
 namespace pellucid {
 namespace {
@@ -109,6 +109,10 @@ std::string body(const Study& study) {
       section("Variance and bias", split_charts(study),
               "Share of variance (light) and of squared bias (full) in the error, by samples per "
               "pixel, with the error below; the tick is the upper 90 % bound of the bias.");
+  text += section("Which method is best where", wide(tile_chart(study)),
+                  fmt::format("Tiles of {0}x{0} pixels by the least relMSE times seconds of the "
+                              "longest runs; rest on a tile for its error.",
+                              STUDY_TILE));
   text += section("Where the time goes", wide(pass_chart(study)),
                   "Seconds of one sample per pixel, pass by pass, the dearest first.");
   text +=

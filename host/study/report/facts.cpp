@@ -1,5 +1,5 @@
 // The facts of a study that its reports share.
-#include "study/report_facts.h"
+#include "study/report/facts.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,8 @@
 
 #include "base/statistics.h"
 #include "base/text.h"
-#include "study/report_text.h"
+#include "study/fit.h"
+#include "study/report/text.h"
 
 namespace pellucid {
 namespace {
@@ -36,12 +37,6 @@ ErrorPoint error_point(std::uint64_t spp, const std::vector<const Rung*>& rungs)
     point.high = std::sqrt(mean + half);
   }
   return point;
-}
-
-/// A squared bias if it is there for certain: by its bound, which lies as far above it as another
-/// one lies below. Else 0.
-double certain(double bias2, double upper) {
-  return 2 * bias2 - upper > 0 && std::isfinite(bias2) ? bias2 : 0;
 }
 
 /// One of those that the recommended option does not beat.
@@ -103,19 +98,20 @@ std::optional<double> error_floor(const Study& study, std::size_t i) {
   // methods that merge are off by shrinks with their radius.
   const bool never = verdict_of(study, i).kind == TargetKind::never;
   if (never && !option.merges && !option.splits.empty())
-    bias2 = certain(option.splits.back().bias2, option.splits.back().bias2_upper90);
+    bias2 = certain_bias(option.splits.back().bias2, option.splits.back().bias2_upper90,
+                         int(option.runs.size()));
   if (const PrecisionPair* pair = pair_of(study, option))
-    bias2 = std::max(bias2, certain(pair->bias2, pair->bias2_upper90));
+    bias2 = std::max(bias2, certain_bias(pair->bias2, pair->bias2_upper90, pair->runs));
   return bias2 > 0 ? std::optional(std::sqrt(bias2)) : std::nullopt;
 }
 
 std::string pair_bias_text(const PrecisionPair& pair) {
-  const double bias2 = certain(pair.bias2, pair.bias2_upper90);
+  const double bias2 = certain_bias(pair.bias2, pair.bias2_upper90, pair.runs);
   return bias2 > 0 ? percent(std::sqrt(bias2)) : "none seen";
 }
 
 std::optional<FloorTime> floor_time(const Study& study, const PrecisionPair& pair) {
-  const double sure = certain(pair.bias2, pair.bias2_upper90);
+  const double sure = certain_bias(pair.bias2, pair.bias2_upper90, pair.runs);
   const double bias2 = sure > 0 ? sure : pair.bias2_upper90;
   for (std::size_t i = 0; i < study.options.size(); ++i) {
     const Verdict v = verdict_of(study, i);
@@ -171,6 +167,10 @@ std::string slope_text(const Verdict& v) {
   if (!std::isfinite(v.slope_low) || !std::isfinite(v.slope_high))
     return fmt::format("{:.2f}", v.slope);
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", v.slope, v.slope_low, v.slope_high);
+}
+
+std::string tiles_text(const StudyOption& option) {
+  return option.tiles.empty() ? "-" : fmt::format("{:.0f} %", 100 * option.tiles_within);
 }
 
 std::string bias_text(const StudyOption& option) {

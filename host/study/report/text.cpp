@@ -1,5 +1,5 @@
 // Figures in few digits: the same on every machine, whatever its locale.
-#include "study/report_text.h"
+#include "study/report/text.h"
 
 #include <fmt/format.h>
 

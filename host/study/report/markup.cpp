@@ -1,5 +1,5 @@
 // Elements, tables and lists as text.
-#include "study/markup.h"
+#include "study/report/markup.h"
 
 namespace pellucid {
 

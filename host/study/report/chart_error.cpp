@@ -5,21 +5,17 @@
 #include <cmath>
 
 #include "study/analyse.h"
-#include "study/report_charts.h"
-#include "study/report_facts.h"
-#include "study/report_style.h"
-#include "study/report_text.h"
-#include "study/svg.h"
+#include "study/report/charts.h"
+#include "study/report/facts.h"
+#include "study/report/style.h"
+#include "study/report/svg.h"
+#include "study/report/text.h"
 
 namespace pellucid {
 namespace {
 
-constexpr double WIDTH = 780, LEFT = 58, RIGHT = 170, TOP = 12, BOTTOM = 64;
+constexpr double WIDTH = 780, LEFT = 58, RIGHT = 190, TOP = 12, BOTTOM = 64;
 constexpr double LABEL_GAP = 17, LINE_NAME_GAP = 14;
-
-std::string classes_of(const StudyOption& option) {
-  return method_class(option.integrator) + (option.precision == "strict" ? "" : " relaxed");
-}
 
 struct Floor {
   const StudyOption* option;
@@ -46,7 +42,7 @@ struct Series {
   double end_error() const {
     return fit_to > 0 ? *fitted_error(*option, verdict, fit_to) : *points.back().error;
   }
-  std::string classes() const { return classes_of(*option); }
+  std::string classes() const { return option_classes(*option); }
 };
 
 /// Where the drawn fit ends: at the target, or as far as one may extrapolate; 0 where the target is
@@ -177,7 +173,7 @@ void draw_floors(Chart& c, const Study& study) {
     name_line(floor.error, "floor of " + floor.option->name());
     if (c.y.holds(floor.error))
       c.svg.line({c.x.start, c.y.at(floor.error)}, {c.x.end, c.y.at(floor.error)},
-                 "floor " + classes_of(*floor.option));
+                 "floor " + option_classes(*floor.option));
   }
   heights = spread(heights, LINE_NAME_GAP, c.y.end, c.y.start - 8);
   for (std::size_t k = 0; k < names.size(); ++k)

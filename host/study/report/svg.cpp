@@ -1,5 +1,5 @@
 // SVG as text, a tenth of a pixel exact.
-#include "study/svg.h"
+#include "study/report/svg.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "study/markup.h"
-#include "study/report_text.h"
+#include "study/report/markup.h"
+#include "study/report/text.h"
 
 namespace pellucid {
 namespace {
