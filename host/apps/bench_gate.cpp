@@ -216,6 +216,11 @@ std::vector<std::string> worse_renders(const json& now, const json& before, doub
                         score.at("score").get<double>(), earlier->at("score").get<double>()));
     }
   }
+  for (const json& old : before.at("devices"))
+    if (now.at("every_device") == true && !find_entry(now.at("devices"), old, {"device"}))
+      worse.push_back(fmt::format("{} is in the baseline and not to be used here; --device compares "
+                                  "one device alone",
+                                  old.at("device").get<std::string>()));
   return worse;
 }
 

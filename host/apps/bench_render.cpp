@@ -94,6 +94,7 @@ nlohmann::json RenderBench::run(const DeviceFlags& device) const {
           {"size", WORKLOAD_SIZE},
           {"seeds", repeats_.value_or(MethodBenchOptions().repeats)},
           {"scenes", hashes_},
+          {"every_device", device.device.empty()},
           {"devices", devices}};
 }
 

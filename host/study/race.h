@@ -16,8 +16,9 @@ constexpr int pilot_runs = 4, main_runs = 10, blind_runs = 4;
 struct Entry {
   std::unique_ptr<Contender> contender;
   StudyOption option;
-  bool asked = false, trusted = false;
-  bool raced = true;  ///< has, or would have, runs beside those of the pilot
+  bool asked = false;
+  bool voice = false;  ///< sees all, so it may speak for the truth
+  bool raced = true;   ///< has, or would have, runs beside those of the pilot
   std::vector<LadderStep> pilots;
   std::vector<std::uint64_t> ladder;
   std::vector<PictureStack> stacks;  ///< by rung

@@ -82,13 +82,15 @@ std::pair<double, double> Chooser::time_ratio(const StudyOption& option) const {
 }
 
 /// Whether their times do, at the study's confidence. Of a method in two precisions, only what the
-/// pairs say counts: noise is theirs in common.
+/// pairs say counts: noise is theirs in common. A gain of less than `worth` there is none: nobody
+/// gives up exact rounding for it, and with several precisions one looks so by chance.
 bool Chooser::differ(int a, int b) const {
   const StudyOption &x = s_.options[std::size_t(a)], &y = s_.options[std::size_t(b)];
   if (x.integrator == y.integrator && x.radius_factor == y.radius_factor) {
     const auto [x_low, x_high] = time_ratio(x);
     const auto [y_low, y_high] = time_ratio(y);
-    return x_high < y_low || y_high < x_low;
+    constexpr double worth = 0.02;
+    return x_high < (1 - worth) * y_low || y_high < (1 - worth) * x_low;
   }
   const double u = s_.verdicts[std::size_t(a)].seconds, v = s_.verdicts[std::size_t(b)].seconds;
   const double dof = double(runs_of(x) + runs_of(y) - 2);
@@ -129,14 +131,16 @@ void Chooser::tell_conditions() {
     s_.would_change.push_back(
         fmt::format("Its time is extrapolated x{:.2g}: a budget of about {} would measure it.",
                     v.beyond_factor, format_seconds(s_.budget_seconds * v.beyond_factor)));
-  std::vector<std::string> too_slow;
+  std::vector<std::string> too_slow, left;
   for (const StudyOption& other : s_.options) {
     if (other.state == OptionState::pilot)
-      s_.would_change.push_back(fmt::format(
-          "{} was left after the pilot ({}); only a pilot that misjudged it would change that.",
-          other.name(), other.reason));
+      left.push_back(fmt::format("{} ({})", other.name(), other.reason));
     if (other.state == OptionState::too_slow) too_slow.push_back(other.name());
   }
+  if (!left.empty())
+    s_.would_change.push_back(
+        fmt::format("Left after the pilot: {}; only a pilot that misjudged them would change that.",
+                    join(left)));
   if (!too_slow.empty())
     s_.would_change.push_back(fmt::format(
         "A larger budget may bring in what had too few rungs for a curve: {}.", join(too_slow)));

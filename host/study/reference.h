@@ -33,8 +33,18 @@ Reference read_reference(const std::string& file, const ReferenceWanted& wanted)
 Reference make_reference(Contender& one, Contender& other, std::uint64_t seed, double seconds,
                          const std::function<void(const std::string&)>& tell);
 
+/// Throws InputError if a value is no number.
+void require_numbers(const Reference& reference);
+
+/// By an unbiased method that finds some light by chance alone (`by_chance` says which), with one
+/// that merges and sees it, from `radius` on, as witness; untrusted where they differ.
+Reference confirm_reference(Contender& unbiased, const std::string& by_chance,
+                            const Contender& merging, double radius, std::uint64_t seed,
+                            double seconds, const std::function<void(const std::string&)>& tell);
+
 /// By a method that merges, where no other sees all: fixed radii r, r / sqrt 2, r / 2, and the
-/// straight line in r^2 of every value continued to 0 [Hachisuka10: bias is of order r^2].
+/// straight line in r^2 of every value continued to 0 [Hachisuka10: bias is of order r^2];
+/// untrusted where these lie on no straight line.
 Reference extrapolate_reference(const Contender& merging, double radius, std::uint64_t seed,
                                 double seconds,
                                 const std::function<void(const std::string&)>& tell);

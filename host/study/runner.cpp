@@ -25,7 +25,7 @@
 #include "study/pairs.h"
 #include "study/race.h"
 #include "study/recommend.h"
-#include "study/reference.h"
+#include "study/referee.h"
 #include "study/tiles.h"
 
 namespace pellucid {
@@ -93,8 +93,8 @@ void Runner::enlist() {
     const auto& asked = request_.integrators;
     entry.asked = std::find(asked.begin(), asked.end(), method.name) != asked.end();
     const bool sees = entry.option.unreachable.empty();
-    entry.trusted = method.name != "reference" && sees && entry.option.chance.empty();
-    if (!entry.asked && (!entry.trusted || !request_.reference.empty())) continue;
+    entry.voice = method.name != "reference" && sees;
+    if (!entry.asked && (!entry.voice || !request_.reference.empty())) continue;
     entry.contender = std::make_unique<Contender>(stage_, method, "strict");
     if (!sees) entry.option.state = OptionState::blind;
     entries_.push_back(std::move(entry));
@@ -132,18 +132,6 @@ void Runner::pilot() {
     }
 }
 
-using Ranking = std::vector<std::pair<double, Entry*>>;
-
-/// The best but one of the voices, if possible one of other kernels: a fault that both have would
-/// not show.
-Entry* other_voice(const Ranking& voices) {
-  const auto kernels = [](const Entry* e) { return e->contender->method().kernels(); };
-  for (const auto& [cost, entry] : voices)
-    if (kernels(entry) != kernels(voices[0].second)) return entry;
-  return voices.size() > 1 ? voices[1].second : voices[0].second;
-}
-
-/// Which methods may speak for the truth: unbiased, and aiming at all paths; the quickest two.
 void Runner::refer() {
   if (!request_.reference.empty()) {
     const Window window = stage_.options.window();
@@ -152,32 +140,9 @@ void Runner::refer() {
                              seed(main_seeds, 0), seed(main_seeds, main_runs - 1)});
     return;
   }
-  const double seconds = until_reference * request_.budget_seconds - clock_.seconds();
-  const auto say = [this](const std::string& text) { tell(text); };
-  PictureStack all;
-  for (const Entry& entry : entries_)
-    if (entry.trusted && entry.option.state != OptionState::refused)
-      for (const LadderStep& p : entry.pilots) all.add(p.picture);
-  if (all.size() == 0) throw UsageError("no method can make a reference; give one with --ref FILE");
-  const std::vector<double> weights = relmse_weights(all.mean());
-  Ranking unbiased, merging;  // by relMSE x seconds
-  for (Entry& entry : entries_) {
-    if (!entry.trusted || entry.option.state == OptionState::refused) continue;
-    PictureStack own;
-    for (const LadderStep& p : entry.pilots) own.add(p.picture);
-    (entry.option.merges ? merging : unbiased)
-        .emplace_back(own.variance(weights) * entry.pilot_seconds(), &entry);
-  }
-  const auto by_cost = [](const auto& a, const auto& b) { return a.first < b.first; };
-  std::sort(unbiased.begin(), unbiased.end(), by_cost);
-  std::sort(merging.begin(), merging.end(), by_cost);
-  if (!unbiased.empty()) {
-    reference_ = make_reference(*unbiased[0].second->contender, *other_voice(unbiased)->contender,
-                                seed(reference_seeds, 0), seconds, say);
-  } else {
-    const Contender& best = *merging[0].second->contender;
-    reference_ = extrapolate_reference(best, best.radius(), seed(reference_seeds, 0), seconds, say);
-  }
+  reference_ = choose_reference(entries_, seed(reference_seeds, 0),
+                                until_reference * request_.budget_seconds - clock_.seconds(),
+                                [this](const std::string& text) { tell(text); });
 }
 
 /// The most promising method that merges, with other radii; these are the first to be left out

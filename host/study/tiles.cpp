@@ -1,6 +1,7 @@
 // Sums over tiles, all in double.
 #include "study/tiles.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/statistics.h"
@@ -57,8 +58,11 @@ std::vector<double> tile_energies(const Tiling& tiling, const Picture& picture) 
   return tile_sums(tiling, [&](std::size_t i) { return double(picture[i]); });
 }
 
-TileDifference worst_tile(const Tiling& tiling, const PictureStack& a, const PictureStack& b) {
+TileDifference worst_tile(const Tiling& tiling, const PictureStack& a, const PictureStack& b,
+                          double allowed) {
   const std::vector<TileMean> x = tile_means(tiling, a), y = tile_means(tiling, b);
+  double mean = 0;
+  for (const TileMean& tile : y) mean += std::abs(tile.mean) / double(y.size());
   TileDifference worst;
   for (std::size_t tile = 0; tile < x.size(); ++tile) {
     const double error = x[tile].square_error + y[tile].square_error;
@@ -67,7 +71,9 @@ TileDifference worst_tile(const Tiling& tiling, const PictureStack& a, const Pic
     const double dof = error * error /
                        (std::pow(x[tile].square_error, 2) / (a.size() - 1) +
                         std::pow(y[tile].square_error, 2) / (b.size() - 1));
-    const double t = std::abs(x[tile].mean - y[tile].mean) / std::sqrt(error);
+    const double free = allowed * (std::abs(y[tile].mean) + mean);
+    const double apart = std::max(0.0, std::abs(x[tile].mean - y[tile].mean) - free);
+    const double t = apart / std::sqrt(error);
     const double probability = 2 * student_cdf(-t, dof) * tiling.count();
     if (probability < worst.probability) worst = {int(tile), t, probability};
   }

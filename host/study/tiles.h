@@ -26,11 +26,13 @@ std::vector<double> tile_energies(const Tiling& tiling, const Picture& picture);
 
 /// The largest difference of two stacks' tiles in standard errors (Welch's t over the pictures of
 /// each), and its probability by chance alone in any of the tiles: at most p times their number
-/// (Bonferroni, since merged pictures are not independent from tile to tile).
+/// (Bonferroni, since merged pictures are not independent from tile to tile). So much of the tile's
+/// own light, and of a mean tile's, may differ beyond chance.
 struct TileDifference {
   int tile = 0;
   double t = 0, probability = 1;
 };
-TileDifference worst_tile(const Tiling& tiling, const PictureStack& a, const PictureStack& b);
+TileDifference worst_tile(const Tiling& tiling, const PictureStack& a, const PictureStack& b,
+                          double allowed = 0);
 
 }  // namespace pellucid

@@ -59,16 +59,18 @@ def check_renders(baseline):
         at_equal_time = cell["relmse"] * cell["seconds"] / cells[0]["seconds"]
         check(abs(cell["relmse_equal_time"] / at_equal_time - 1) < 1e-6, "error at equal time", cell)
 
-    # Beside this very result, with vcm's errors and the speed of `path` made better: only these two are
-    # told, since all other errors are the same, bit for bit, and 99 % forgives a busy machine.
+    # Beside this very result, with vcm's errors and the speed of `path` made better and a device added: only
+    # these three are told, since all other errors are the same, bit for bit, and 99 % forgives a busy machine.
     changed = json.loads(out)
     path, vcm = (changed["devices"][0]["methods"][i] for i in (0, -1))
     path["samples_per_s_best"] *= 1e4
     vcm["relmse_runs"] = [e / 1e6 for e in vcm["relmse_runs"]]
+    changed["devices"].append({**changed["devices"][0], "device": "voodoo"})
     baseline.write_text(json.dumps(changed))
     code, _, err = render("--baseline", str(baseline), "--fail-slower", "99%")
     lines = [line for line in err.splitlines() if "beside" in line]
-    check(code == 1 and len(lines) == 2, "what got worse fails, and nothing else", code, err)
+    check(code == 1 and len(lines) == 3, "what got worse fails, and nothing else", code, err)
+    check(any("voodoo is in the baseline" in line for line in lines), "a device that is gone", err)
     check(any("path on veach-mis" in line and "slower" in line for line in lines), "a speed", err)
     check(any("vcm on veach-mis: relMSE" in line and "beyond chance" in line for line in lines), "an error", err)
     for text, what in (({**result, "workload": "render-1"}, "no result of"), ({**result, "scenes": {}}, "veach-mis"),

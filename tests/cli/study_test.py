@@ -4,6 +4,7 @@
 Usage: study_test.py path/to/pellucid   (exit 0: all checks hold)
 """
 import json
+import os
 import signal
 import struct
 import subprocess
@@ -93,8 +94,80 @@ def test_stop():
     expect(1, ["study", "--report", "stopped/study.json", "--out", "stopped2"])
 
 
+def make_plain():
+    """A grey plane below a point light."""
+    scene = {"version": 1, "camera": {"origin": [0, 1, 4], "target": [0, 0, 0], "fov": 40},
+             "film": {"width": 12, "height": 12},
+             "materials": {"grey": {"type": "diffuse", "reflectance": 0.5}},
+             "shapes": [{"type": "rectangle", "material": "grey", "corner": [-2, -1, -2],
+                         "edges": [[0, 0, 4], [4, 0, 0]]}],
+             "lights": [{"type": "point", "position": [0, 3, 0], "intensity": 10}]}
+    write_text("plain.json", json.dumps(scene))
+
+
+def test_kill():
+    """What was measured in whole rounds is on disk before the end."""
+    make_reference()
+    with open("kill.txt", "w", encoding="utf-8") as log:
+        process = subprocess.Popen([PELLUCID, "study", "cornell-box", *SMALL, "--precision", "strict",
+                                    "--budget", "40s", "--out", "killed"], stdout=subprocess.DEVNULL,
+                                   stderr=log)
+        end = time.monotonic() + 60
+        while time.monotonic() < end and not (os.path.exists("killed/study.json")
+                                              and os.path.getsize("killed/study.json")):
+            time.sleep(0.05)
+        process.kill()
+        process.wait(60)
+    study = read_json("killed/study.json")
+    check(study["complete"] is False and study["scene"] == "cornell-box", "partial", study["complete"])
+    check(any(one["runs"] for one in study["options"]), "with the runs of a round")
+
+
+def test_reference_of_something_else():
+    make_reference()
+    ask = ["study", "cornell-box", "--size", "12x12", "--integrators", "path,nee", "--target", "20%", "--budget",
+           "10s", "--out", "other"]
+    shape = ["cornell-box", "-q", "--size", "12x12", "--spp", "64", "-o"]
+    expect(0, [*shape, "deep.exr", "--max-depth", "3"])
+    expect(3, [*ask, "--ref", "deep.exr"], "deep.exr", "max-depth 3", "unlimited")
+    expect(0, [*shape, "box.exr", "--filter", "box"])
+    expect(3, [*ask, "--ref", "box.exr"], "filter box")
+    expect(0, [*shape, "same.exr", "--seed", "14000003"])
+    expect(3, [*ask, "--ref", "same.exr", "--seed", "1"], "same.exr", "seed", "14000003")
+    make_plain()
+    expect(0, ["plain.json", "-q", "--spp", "64", "-D", "materials.grey.reflectance=0.6", "-o", "pale.exr"])
+    expect(1, ["study", "plain.json", "--integrators", "path,nee", "--precision", "strict", "--target", "20%",
+               "--budget", "10s", "--ref", "pale.exr", "--out", "other"])
+    reference = read_json("other/study.json")["reference"]
+    check("only if these differ in nothing" in reference["doubt"], "another scene is told", reference["doubt"])
+
+
+def test_black():
+    """No error is relative to nothing."""
+    make_plain()
+    expect(3, ["study", "plain.json", "-D", "camera.target=[0,9,9]", "--integrators", "path,nee", "--budget", "20s",
+               "--out", "black"], "black")
+
+
+def test_refused_by_memory():
+    """A method that does not fit leaves the study; the others go on."""
+    make_reference()
+    small = ["--size", "12x12", "--ref", "ref.exr", "--target", "20%", "--precision", "strict"]
+    expect(0, ["study", "cornell-box", *small, "--integrators", "path,vcm", "--light-paths", "4000000", "--memory",
+               "64M", "--budget", "30s", "--out", "narrow"])
+    study = read_json("narrow/study.json")
+    states = {one["integrator"]: (one["state"], one["reason"]) for one in study["options"]}
+    check(states["path"][0] == "main", "path goes on", states)
+    check(states["vcm"][0] == "refused" and "memory" in states["vcm"][1], "vcm does not fit", states)
+
+
 def test_bad_input():
     make_reference()
+    expect(2, ["study", "--report", "study.json", "--budget", "5s"], "--report", "--budget")
+    expect(2, ["study", "cornell-box", "--integrators", "path", "--radius", "0.1"], "--radius has no effect")
+    expect(2, ["study", "cornell-box", "--integrators", "path", "--light-paths", "9"], "--light-paths")
+    expect(2, ["study", "cornell-box", "--integrators", "naive", "--mis", "power"], "--mis")
+    expect(2, ["study", "cornell-box", "--radius", "-1"], "--radius")
     expect(2, ["study"], "SCENE", "--report")
     expect(2, ["study", "cornell-box", "--target", "0"], "--target")
     expect(2, ["study", "cornell-box", "--budget", "0.2s"], "--budget")

@@ -79,6 +79,29 @@ TEST(StudyReference, extrapolation_to_radius_zero) {
   EXPECT_FALSE(r.facts.doubt.empty());
 }
 
+// Where light is found by chance alone, a method that merges is the witness: it has a veto.
+TEST(StudyReference, a_witness_confirms_or_not) {
+  Ground ground("cornell-box");
+  Contender lucky = ground.contender("path");
+  const Contender witness = ground.contender("vcm");
+  const double radius = 0.5 * witness.radius();
+  const Reference right = confirm_reference(lucky, "caustics", witness, radius, 1, 4, quiet);
+  EXPECT_TRUE(right.facts.trusted) << right.facts.doubt;
+  EXPECT_NE(right.facts.doubt.find("caustics"), std::string::npos) << right.facts.doubt;
+  lucky.options().max_depth = 2;
+  const Reference dark = confirm_reference(lucky, "caustics", witness, radius, 1, 4, quiet);
+  EXPECT_FALSE(dark.facts.trusted) << dark.facts.doubt;
+}
+
+// Radii as large as the room: three such lie on no straight line, which is seen.
+TEST(StudyReference, a_bent_line_is_not_trusted) {
+  Ground ground("cornell-box");
+  const Contender merging = ground.contender("bpm");
+  const Reference r = extrapolate_reference(merging, 8 * merging.radius(), 1, 4, quiet);
+  EXPECT_FALSE(r.facts.trusted) << r.facts.doubt;
+  EXPECT_NE(r.facts.doubt.find("straight line"), std::string::npos) << r.facts.doubt;
+}
+
 // Pilots made by hand: a hundredfold error is left out, a twofold one is not.
 TEST(StudyRace, what_is_far_dearer_is_left_out) {
   Ground ground("cornell-box");

@@ -270,6 +270,17 @@ TEST(StudyAnalysis, precision) {
 }
 
 // Of two relaxed precisions the quicker one wins, though the slower differs from strict as little.
+// What every pair saves, but hardly any time at all, is not worth other arithmetic.
+TEST(StudyAnalysis, a_hair_is_not_worth_it) {
+  World world(9400);
+  world.add_relaxed({"path", 0.08, 0.01});
+  world.study().pairs = {{"path", "mad", 256, 1e-12, 1e-11, 0.99, 0.97, 0.993, 3, 0, 5},
+                         {"path", "fast", 256, 1e-12, 1e-11, 0.98, 0.96, 0.99, 3, 0, 5}};
+  analyse(world.study());
+  EXPECT_EQ(world.study().recommended, 0) << world.study().recommendation;
+  EXPECT_EQ(world.study().equals.size(), 2u);
+}
+
 TEST(StudyAnalysis, relaxed_beside_relaxed) {
   World world(9300);
   world.add_relaxed({"path", 0.08, 0.01});

@@ -110,6 +110,8 @@ TEST(StudyTiles, worst_tile_by_chance_and_by_fault) {
   const TileDifference found = worst_tile(tiling, stack_of(0.0625f), stack_of(0));
   EXPECT_EQ(found.tile, 1 * 4 + 2);
   EXPECT_LT(found.probability, 1e-3);
+  EXPECT_GT(worst_tile(tiling, stack_of(0.0625f), stack_of(0), 0.05).probability, 0.01)
+      << "a twentieth of its light and of a mean tile's is free";
 }
 
 TEST(StudyFit, only_a_certain_bias_counts) {
