@@ -218,9 +218,10 @@ std::vector<std::string> worse_renders(const json& now, const json& before, doub
   }
   for (const json& old : before.at("devices"))
     if (now.at("every_device") == true && !find_entry(now.at("devices"), old, {"device"}))
-      worse.push_back(fmt::format("{} is in the baseline and not to be used here; --device compares "
-                                  "one device alone",
-                                  old.at("device").get<std::string>()));
+      worse.push_back(
+          fmt::format("{} is in the baseline and not to be used here; --device compares "
+                      "one device alone",
+                      old.at("device").get<std::string>()));
   return worse;
 }
 

@@ -104,7 +104,8 @@ void check_reference(Study& s) {
     for (const std::string& flag : v.flags) flagged |= flag.rfind("its pictures have", 0) == 0;
   if (!flagged) return;
   s.reference.trusted = false;
-  s.reference.doubt = fmt::format(
+  if (!s.reference.doubt.empty()) s.reference.doubt += "; ";
+  s.reference.doubt += fmt::format(
       "every unbiased method is {} than the reference: the reference is wrong, or made for another "
       "scene or exposure",
       brighter ? "brighter" : "darker");
