@@ -13,6 +13,7 @@ ROOT = pathlib.Path(sys.argv[1])
 HOST = {
     "base": set(),
     "image": {"base"},
+    "explain": {"base", "image"},
     "bvh": {"base"},
     "cl": {"base"},
     "scene": {"base", "image"},
@@ -21,7 +22,7 @@ HOST = {
     "integrators": {"base", "pack", "render", "shared"},
     "bench": {"base", "cl", "pack", "render", "scene", "bvh", "shared"},
     "study": {"base", "cl", "image", "integrators", "pack", "render", "scene", "shared"},
-    "apps": {"base", "bench", "study", "image", "bvh", "cl", "scene", "pack", "render", "integrators", "shared"},
+    "apps": {"base", "bench", "study", "explain", "image", "bvh", "cl", "scene", "pack", "render", "integrators", "shared"},
 }
 _LOW = {"shared", "core", "geom"}
 KERNELS = {
