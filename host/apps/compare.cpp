@@ -8,6 +8,7 @@
 
 #include "apps/command.h"
 #include "apps/common.h"
+#include "apps/compare_explain.h"
 #include "apps/compare_metrics.h"
 #include "apps/compare_noise.h"
 #include "apps/compare_report.h"
@@ -25,7 +26,7 @@ struct Options {
   std::vector<std::string> others;  ///< further runs
   std::vector<std::string> gates;   ///< "metric=value"
   std::string map, ppd;             ///< "" is the default
-  bool ztest = false;
+  bool ztest = false, explain = false;
   std::string ztest_image, ztest_tile;
 };
 
@@ -185,12 +186,16 @@ ExitCode run(const Options& options, const CommonOptions& common) {
   }
   const Comparison found = compare(runs, reference, options, task);
   if (task.map) write_map(options.diff, *task.map, files.front(), reference, task.ppd);
+  std::optional<explain::Explanation> explanation;
+  if (options.explain && found.nonfinite == 0) explanation = explain_pair(files.front(), reference);
 
   if (common.wants_text()) print_result(comparison_table(found, task.gates));
+  if (common.wants_text() && explanation) print_result(explanation_text(*explanation));
   nlohmann::json document = comparison_json(found, task.gates);
   document["image"] = options.image;
   document["reference"] = options.reference;
   if (!options.others.empty()) document["with"] = options.others;
+  if (explanation) document["explain"] = explanation_json(*explanation);
   if (task.map) document.update({{"diff", options.diff}, {"map", task.map->name}});
   write_json(common.json, document);
   if (common.wants_text() && task.map) print_result(options.diff + '\n');
@@ -211,6 +216,11 @@ void declare_ztest(CLI::App& app, Options& options) {
   app.add_option("--ztest-tile", options.ztest_tile,
                  "what the noise may hide of a tile's energy at most (default: 5%)")
       ->type_name("PART");
+}
+
+void declare_explain(CLI::App& app, Options& options) {
+  app.add_flag("--explain", options.explain,
+               "tell why A and B differ in brightness; one of them needs render's AOV 'length'");
 }
 
 constexpr const char* FOOTER =
@@ -261,6 +271,7 @@ CommandRun setup_compare(CLI::App& app) {
   app.add_option("--ppd", options->ppd, "pixels per degree of view, for FLIP (default: 67.02)")
       ->type_name("NUMBER");
   declare_ztest(app, *options);
+  declare_explain(app, *options);
   app.footer(FOOTER);
   return [options](const CommonOptions& common) { return run(*options, common); };
 }

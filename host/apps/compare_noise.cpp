@@ -14,23 +14,6 @@
 namespace pellucid {
 namespace {
 
-/// An attribute that is a text; "" without it.
-std::string text_attribute(const Image& image, const char* name) {
-  const auto found = image.metadata.find(name);
-  if (found == image.metadata.end()) return "";
-  const std::string* text = std::get_if<std::string>(&found->second);
-  return text ? *text : "";
-}
-
-/// An unknown method may do anything.
-bool pixels_are_independent(const Image& image) {
-  const std::string name = text_attribute(image, "pellucid:integrator");
-  const auto& known = integrators();
-  const auto method =
-      std::find_if(known.begin(), known.end(), [&](const Integrator& i) { return i.name == name; });
-  return method != known.end() && !method->walks_from_lights();
-}
-
 double samples_of(const NamedImage& named) {
   const auto found = named.image.metadata.find("samplesPerPixel");
   const int* count =
@@ -54,6 +37,21 @@ bool share_samples(const Image& a, const Image& b) {
 }
 
 }  // namespace
+
+std::string text_attribute(const Image& image, const char* name) {
+  const auto found = image.metadata.find(name);
+  if (found == image.metadata.end()) return "";
+  const std::string* text = std::get_if<std::string>(&found->second);
+  return text ? *text : "";
+}
+
+bool pixels_are_independent(const Image& image) {
+  const std::string name = text_attribute(image, "pellucid:integrator");
+  const auto& known = integrators();
+  const auto method =
+      std::find_if(known.begin(), known.end(), [&](const Integrator& i) { return i.name == name; });
+  return method != known.end() && !method->walks_from_lights();
+}
 
 void check_variances(const NamedImage& named) {
   const Variances variances(named.image);

@@ -15,6 +15,13 @@ struct NamedImage {
 };
 using NamedImages = std::vector<const NamedImage*>;
 
+/// An attribute that is a text; "" without it.
+std::string text_attribute(const Image& image, const char* name);
+
+/// Whether the noise of one pixel tells nothing of its neighbours', as far as the file tells its
+/// method: an unknown one may do anything.
+bool pixels_are_independent(const Image& image);
+
 /// Throws UsageError if the image has no colours with variances, InputError if these are unknown.
 void check_variances(const NamedImage& named);
 
