@@ -242,6 +242,14 @@ constexpr const char* FOOTER =
     "Methods that splat or merge have pixels that depend on each other: there it needs several\n"
     "runs (--with), whose spread is then the noise. Tiles in which fewer than 300 samples matter\n"
     "are judged as a part of the whole only.\n"
+    "--explain fits models of known causes (exposure, albedo, colour space, depth cap, clamp, "
+    "lamps\n"
+    "that emit on two sides, pixel filter, ...) to the difference, and says which it is, how sure\n"
+    "that is and what to do next; or that there is none beyond noise, or none of these. One "
+    "picture\n"
+    "needs layers by path length (render's AOV 'length', best with a dozen of them); the other "
+    "may\n"
+    "be of any program, with the same camera and size.\n"
     "Maps: relative (0.001 black, 0.01 blue, 0.1 red, 1 yellow, 10 white), flip and hdr-flip (0\n"
     "black, over violet and orange to 1 pale yellow), signed (blue too dark, white right, red too\n"
     "bright; full colours at 100 %), z (the same in standard errors, full at 5; both images need\n"
@@ -249,7 +257,8 @@ constexpr const char* FOOTER =
     "Exit code: 0 every gate holds, 1 not, 2 usage, 3 an image cannot be read or sizes differ.\n\n"
     "Example:\n"
     "  pellucid compare out.exr golden.exr --fail-above relmse=1e-3 -o diff.png\n"
-    "  pellucid compare run0.exr truth.exr --with run1.exr run2.exr run3.exr";
+    "  pellucid compare run0.exr truth.exr --with run1.exr run2.exr run3.exr\n"
+    "  pellucid compare layers.exr other-program.exr --explain";
 
 }  // namespace
 

@@ -112,7 +112,21 @@ void conclude(const Evidence& e, double significance, double scatter, Explanatio
   x.advice = best->cause.advice;
 }
 
+/// Which strategies differ, if others do not.
+void note_strategies(Explanation& x) {
+  std::vector<std::string> differ, agree;
+  for (const Row& row : x.strategies) {
+    if (!(row.all_known() > 0) || !(row.all_error() > 0)) continue;
+    const double off = std::abs(row.all_other() / row.all_known() - 1);
+    (off > SEEN * row.all_error() ? differ : agree).push_back(row.name);
+  }
+  if (!differ.empty() && !agree.empty())
+    x.notes.push_back(fmt::format("of the strategies {} differ beyond noise, and {} do not",
+                                  fmt::join(differ, ", "), fmt::join(agree, ", ")));
+}
+
 void add_notes(const Evidence& e, Explanation& x) {
+  note_strategies(x);
   double all = 0;
   for (const Sums& layer : e.known) all += energy(layer);
   const double rest = all > 0 ? energy(e.known.back()) / all : 0;

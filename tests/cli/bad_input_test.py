@@ -222,6 +222,8 @@ def test_pictures():
             file.write(data[:len(data) // 2])
         attempt(["info", "cut." + suffix], 3, parts=["cut." + suffix])
     attempt(["compare", "cut.png", golden], 3, parts=["cut.png"])
+    attempt(["compare", golden, golden, "--explain"], 2, parts=["--explain", golden, "--aov length"])
+    attempt(["compare", golden, "whole.png", "--explain"], 2, parts=["whole.png"])
     attempt(["compare", golden, "cut.png"], 3, parts=["cut.png"])
     for name in ("diff", "diff.doc", "diff."):
         attempt(["compare", golden, golden, "-o", name], 2, parts=["suffix" if name == "diff" else name])
