@@ -75,7 +75,7 @@ Layers clamped(const Evidence& e, const Bright& b, double level) {
       for (std::size_t c = 0; c < COLOURS; ++c) {
         const std::size_t j = std::size_t(y * e.grid.width + x) * COLOURS + c;
         if (!(b.level[j] > level)) continue;
-        layers.front()[c * e.grid.cells() + e.grid.cell(x, y)] -=
+        layers.front()[c * e.grid.cells() + e.cell(0, x, y)] -=
             double(b.value[j]) * (1 - level / double(b.level[j]));
       }
   return layers;

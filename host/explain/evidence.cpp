@@ -20,6 +20,9 @@ constexpr int MOST_CELLS = 32, LEAST_SIDE = 4;
 /// it is. A cause that is off everywhere by less still shows, since cells are many.
 constexpr double OF_VALUE = 0.005, OF_MEAN = 1e-3;
 
+/// Variance over squares of what counts as one cell, at most.
+constexpr double MOST_NOISE = 0.05;
+
 /// Median of the square of a standard normal number.
 constexpr double MEDIAN_SQUARE = 0.454936;
 
@@ -97,33 +100,37 @@ double left_of(const Steps& s, std::size_t j, double r) {
   return both > 0 ? std::max(0.0, both - 2 * r * s.ab[j]) / both : 0;
 }
 
-/// Where noise is, as both tell it, the quieter one more: cells that are dark by chance look quiet,
-/// too, and must not count for more than those that are bright by chance. The mean of a channel
-/// is 1.
-Sums pattern_of(const Steps& s, std::size_t cells, std::size_t c, double all_a, double all_b) {
-  const double of_a = all_a > 0 && all_b > 0 ? all_b / (all_a + all_b) : all_a > 0 ? 1 : 0;
-  Sums pattern;
-  for (std::size_t j = c * cells; j < (c + 1) * cells; ++j)
-    pattern.push_back(of_a * quotient(s.aa[j], all_a) + (1 - of_a) * quotient(s.bb[j], all_b));
-  return pattern;
+/// How many times as noisy as the known picture the other one is, in a channel: the median of the
+/// cells in which both are, since a single bright path tells nothing of others.
+double noise_ratio(const Steps& s, std::size_t first, std::size_t last) {
+  std::vector<double> ratios;
+  double all_a = 0, all_b = 0;
+  for (std::size_t j = first; j < last; ++j) {
+    all_a += s.aa[j], all_b += s.bb[j];
+    if (s.aa[j] > 0 && s.bb[j] > 0) ratios.push_back(s.bb[j] / s.aa[j]);
+  }
+  if (ratios.empty()) return quotient(all_b, all_a);
+  const auto middle = ratios.begin() + std::ptrdiff_t(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
 }
 
-/// The steps of each picture, spread as both say, without what is common: that is what the cell
-/// shows, be it as bright in both or r times. The variance of b - r a is v_b + r^2 v_a.
+/// The steps of each picture without what is common: that is what the cell shows, be it as bright
+/// in both or r times. The variance of b - r a is v_b + r^2 v_a. Where noise is, both tell, the
+/// quieter one more: cells that are dark by chance look quiet, too, and must not count for more
+/// than those that are bright by chance.
 Noise noise_of(const Grid& grid, const Steps& s, const Sums& known, const Sums& other) {
   Noise noise{s.aa, s.bb};
-  const std::size_t cells = grid.cells();
   for (std::size_t c = 0; c < COLOURS; ++c) {
-    const double all_a = energy(grid, s.aa, c) / double(cells);
-    const double all_b = energy(grid, s.bb, c) / double(cells);
-    const Sums pattern = pattern_of(s, cells, c, all_a, all_b);
-    for (std::size_t i = 0; i < cells; ++i) {
-      const std::size_t j = c * cells + i;
+    const std::size_t first = c * grid.cells(), last = first + grid.cells();
+    const double q = noise_ratio(s, first, last);
+    if (!(q > 0) || std::isinf(q)) continue;  // one of them is black: its steps are all there is
+    for (std::size_t j = first; j < last; ++j) {
       const double r = known[j] > 0 ? std::max(0.0, other[j] / known[j]) : 0;
-      // Where one is black, nothing is common.
       const double left = r > 0 ? std::min({1.0, left_of(s, j, r), left_of(s, j, 1)}) : 1;
-      noise.known[j] = all_a * pattern[i] * left;
-      noise.other[j] = all_b * pattern[i] * left;
+      const double of_known = (q * s.aa[j] + s.bb[j] / q) / (1 + q);
+      noise.known[j] = of_known * left;
+      noise.other[j] = q * of_known * left;
     }
   }
   return noise;
@@ -219,6 +226,45 @@ void add_noise(const Part& known, const Part& other, const Sums& of_known, const
   }
 }
 
+/// Sums of blocks in their first cells.
+void gather_blocks(const Grid& grid, int side, Sums& sums) {
+  Sums out(sums.size());
+  for (std::size_t j = 0; j < sums.size(); ++j) {
+    const int x = int(j % grid.cells()) % grid.columns, y = int(j % grid.cells()) / grid.columns;
+    out[j / grid.cells() * grid.cells() +
+        std::size_t(y / side * side * grid.columns + x / side * side)] += sums[j];
+  }
+  sums = std::move(out);
+}
+
+/// Puts cells of the group together until their light is well above noise: fits to what is mostly
+/// noise depend on how well that is known.
+void coarsen(std::size_t group, Evidence& e) {
+  const std::size_t first = e.by_length() ? group : 0;
+  const std::size_t last = e.by_length() ? group + 1 : e.lengths();
+  for (;;) {
+    double light = 0, noise = 0;
+    for (std::size_t j = 0; j < e.other[group].size(); ++j) {
+      double known = 0;
+      for (std::size_t layer = first; layer < last; ++layer) {
+        known += e.known[layer][j];
+        noise += e.noise_known[layer][j];
+      }
+      noise += e.noise_other[group][j];
+      light += known * known + e.other[group][j] * e.other[group][j];
+    }
+    int& side = e.block[group];
+    if (noise <= MOST_NOISE * light || side >= std::max(e.grid.columns, e.grid.rows)) return;
+    side *= 2;
+    for (std::size_t layer = first; layer < last; ++layer) {
+      gather_blocks(e.grid, side, e.known[layer]);
+      gather_blocks(e.grid, side, e.noise_known[layer]);
+    }
+    gather_blocks(e.grid, side, e.other[group]);
+    gather_blocks(e.grid, side, e.noise_other[group]);
+  }
+}
+
 }  // namespace
 
 Layered::Layered(const Image& image) : image_(image) {
@@ -263,6 +309,23 @@ Layers Evidence::grouped(const Layers& layers) const {
   return one;
 }
 
+std::size_t Evidence::observations(std::size_t group) const {
+  const int side = block[group];
+  return COLOURS * std::size_t((grid.columns + side - 1) / side) *
+         std::size_t((grid.rows + side - 1) / side);
+}
+
+std::size_t Evidence::observations() const {
+  std::size_t count = 0;
+  for (std::size_t g = 0; g < block.size(); ++g) count += observations(g);
+  return count;
+}
+
+std::size_t Evidence::cell(std::size_t layer, int x, int y) const {
+  const int side = block[by_length() ? layer : 0] * grid.side;
+  return grid.cell(x / side * side, y / side * side);
+}
+
 double Evidence::variance(std::size_t group, std::size_t j) const {
   double sum = noise_other[group][j] + tolerance[group][j];
   const std::size_t first = by_length() ? group : 0, last = by_length() ? group + 1 : lengths();
@@ -292,7 +355,7 @@ double Evidence::misfit(const Layers& predicted, Channels channels,
 
 Evidence gather(const Layered& known, const Layered& other, bool by_length) {
   PELLUCID_CHECK(known.layers() >= 2, "layers to explain by");
-  Evidence e{Grid(known.width(), known.height()), {}, {}, {}, {}, {}};
+  Evidence e{Grid(known.width(), known.height()), {}, {}, {}, {}, {}, {}};
   const std::size_t lengths = by_length ? std::min(known.layers(), other.layers()) : known.layers();
   const auto part = [&](const Layered& picture, std::size_t length) {
     return Part{picture, length, length + 1 == lengths ? picture.layers() : length + 1};
@@ -311,8 +374,12 @@ Evidence gather(const Layered& known, const Layered& other, bool by_length) {
   const Layers known_groups = e.grouped(e.known);
   for (std::size_t g = 0; g < e.other.size(); ++g) {
     add_noise(known_parts[g], other_parts[g], known_groups[g], e.other[g], e);
-    e.tolerance.push_back(tolerances(known_groups[g], e.other[g]));
+    e.block.push_back(1);
   }
+  for (std::size_t g = 0; g < e.other.size(); ++g) coarsen(g, e);
+  const Layers groups = e.grouped(e.known);
+  for (std::size_t g = 0; g < e.other.size(); ++g)
+    e.tolerance.push_back(tolerances(groups[g], e.other[g]));
   return e;
 }
 

@@ -70,10 +70,16 @@ struct Evidence {
   Layers noise_known;  ///< variances, as `known`
   Layers noise_other;  ///< as `other`
   Layers tolerance;    ///< squares of what a right cause may leave, as `other`
+  /// Cells along a side of what counts as one, by group: where a cell is mostly noise, its sum with
+  /// others stands in the first one of them, and the others are 0.
+  std::vector<int> block;
 
   std::size_t lengths() const { return known.size(); }
   bool by_length() const { return other.size() > 1; }
-  std::size_t observations() const { return other.size() * COLOURS * grid.cells(); }
+  std::size_t observations() const;
+  std::size_t observations(std::size_t group) const;
+  /// Cell of a pixel, or of the block it is in.
+  std::size_t cell(std::size_t layer, int x, int y) const;
   /// Layers by length as `other` has them.
   Layers grouped(const Layers& layers) const;
   /// Of other - known in a group.

@@ -74,7 +74,7 @@ Layers blurred(const Case& c, double h) {
               sum += c.known.at(l, i, ch);
             return sum;
           });
-          layers[length][ch * g.cells() + g.cell(x, y)] += h * edge;
+          layers[length][ch * g.cells() + e.cell(length, x, y)] += h * edge;
         }
   return layers;
 }

@@ -32,62 +32,51 @@ struct CellLight {
   double off() const { return other - predicted; }
 };
 
-/// The model: known layers, those of indirect light times factors.
+/// The model: known layers, and what indirect light is added to them.
 struct Model {
   std::vector<char> place;  ///< by cell
   Layers predicted;
   std::size_t factors = 0;
-  double indirect = 1;  ///< of all indirect light, on average
 };
 
-double total(const Layers& layers) {
+double total(const Layers& layers, std::size_t first) {
   double sum = 0;
-  for (const Sums& layer : layers) sum += energy(layer);
+  for (std::size_t l = first; l < layers.size(); ++l) sum += energy(layers[l]);
   return sum;
 }
 
-/// Lit surfaces are lamps of their own, and show at a length what the others show one shorter. So
-/// what indirect light is more (or less, in all) is a sum of known layers, in every channel.
-void add_indirect(const Evidence& e, std::size_t group, std::size_t to,
-                  const std::vector<std::size_t>& like, Model& m) {
-  const std::size_t cells = e.grid.cells();
-  const double sign = total(e.other) < total(e.known) ? -1 : 1;
-  const Sums base = e.by_length() ? e.known[group] : e.grouped(e.known).front();
+/// Where lengths are not told apart: lit surfaces are lamps of their own, and show at a length what
+/// the others show one shorter. So what indirect light is more (or less, in all) outside the place
+/// is a sum of the short known layers, in every channel.
+void add_indirect(const Evidence& e, Model& m) {
+  m.predicted = e.known;
+  m.factors = 0;
+  if (e.by_length() || e.lengths() <= DIRECT) return;
+  constexpr std::size_t first = 1, most = 4;
+  const std::size_t cells = e.grid.cells(), count = std::min(e.lengths() - first, most);
+  const double sign = total(e.other, 0) < total(e.known, 0) ? -1 : 1;
+  const Sums base = e.grouped(e.known).front();
   for (std::size_t c = 0; c < COLOURS; ++c) {
-    LeastSquares fit(like.size());
-    std::vector<double> x(like.size());
-    for (std::size_t i = 0; i < cells; ++i) {
-      const std::size_t j = c * cells + i;
-      for (std::size_t k = 0; k < like.size(); ++k) x[k] = e.known[like[k]][j];
-      const double noise = e.variance(group, j);
-      if ((e.by_length() || !m.place[i]) && noise > 0)
-        fit.add(x, sign * (e.other[group][j] - base[j]), 1 / noise);
+    LeastSquares fit(count);
+    std::vector<double> x(count);
+    for (std::size_t j = c * cells; j < (c + 1) * cells; ++j) {
+      for (std::size_t k = 0; k < count; ++k) x[k] = e.known[first + k][j];
+      const double noise = e.variance(0, j);
+      if (!m.place[j % cells] && noise > 0) fit.add(x, sign * (e.other[0][j] - base[j]), 1 / noise);
     }
     const std::vector<double> factor = fit.solve_non_negative().value;
     for (std::size_t j = c * cells; j < (c + 1) * cells; ++j)
-      for (std::size_t k = 0; k < like.size(); ++k)
-        m.predicted[to][j] += sign * factor[k] * e.known[like[k]][j];
-    m.factors += factor.size();
+      for (std::size_t k = 0; k < count; ++k)
+        m.predicted[DIRECT][j] += sign * factor[k] * e.known[first + k][j];
+    m.factors += count;
   }
 }
 
-void fit_indirect(const Evidence& e, Model& m) {
-  m.predicted = e.known;
-  m.factors = 0;
-  const std::size_t n = e.lengths();
-  if (n <= DIRECT) return;
-  for (std::size_t l = DIRECT; l < n && e.by_length(); ++l)
-    add_indirect(
-        e, l, l,
-        l > DIRECT ? std::vector<std::size_t>{l - 2, l - 1, l} : std::vector<std::size_t>{l - 1, l},
-        m);
-  std::vector<std::size_t> short_ones;
-  for (std::size_t l = 1; l < std::min(n, DIRECT + 3); ++l) short_ones.push_back(l);
-  if (!e.by_length()) add_indirect(e, 0, DIRECT, short_ones, m);
-  double before = 0, after = 0;
-  for (std::size_t l = DIRECT; l < n; ++l)
-    before += energy(e.known[l]), after += energy(m.predicted[l]);
-  m.indirect = before > 0 ? after / before : 1;
+/// Indirect over known indirect light.
+double indirect_factor(const Evidence& e, const Model& m) {
+  const double before = total(e.known, DIRECT);
+  const double after = total(e.by_length() ? e.other : m.predicted, DIRECT);
+  return before > 0 ? after / before : 1;
 }
 
 std::size_t direct_groups(const Evidence& e) {
@@ -208,6 +197,15 @@ Place describe(const Evidence& e, const Model& m) {
   return p;
 }
 
+/// What the misfit of known indirect light has beyond noise: what comes of another lamp takes the
+/// scene to foretell, so that it may be as it is.
+double beyond_noise(const Evidence& e) {
+  const std::vector<char> all(e.grid.cells(), 1);
+  double observations = double(e.observations());
+  for (std::size_t g = 0; g < DIRECT; ++g) observations -= double(e.observations(g));
+  return std::max(0.0, e.misfit(e.known, {}, all, DIRECT) - observations);
+}
+
 }  // namespace
 
 void try_local(const Case& c, Causes& causes) {
@@ -216,14 +214,17 @@ void try_local(const Case& c, Causes& causes) {
   m.place = apart_from_most(e);
   constexpr int rounds = 8;  // the place and the factors outside it find each other in a few
   for (int round = 0; round < rounds; ++round) {
-    fit_indirect(e, m);
+    add_indirect(e, m);
     std::vector<char> place = out_of_line(direct_light(e, m.predicted));
     if (place == m.place) break;
     m.place = std::move(place);
   }
   const Place p = describe(e, m);
   if (p.cells == 0 || double(p.cells) > LOCAL * double(e.grid.cells())) return;
-  const bool light_of_a_lamp = p.sided() && (e.by_length() || (p.near > 0 && p.near < NEAR));
+  const double indirect = indirect_factor(e, m);
+  const bool same_way = (indirect - 1) * (p.brighter - p.darker) >= 0;
+  const bool light_of_a_lamp =
+      p.sided() && same_way && (e.by_length() || (p.near > 0 && p.near < NEAR));
   const std::string& more = p.brighter > p.darker ? c.names.other : c.names.known;
   const std::string& less = p.brighter > p.darker ? c.names.known : c.names.other;
   Cause cause;
@@ -247,11 +248,12 @@ void try_local(const Case& c, Causes& causes) {
     cause.advice = "look there in both pictures, and at the map by --map signed";
   }
   cause.figures = {
-      {"cells", double(p.cells)}, {"indirect_factor", m.indirect}, {"distance_to_lights", p.near}};
+      {"cells", double(p.cells)}, {"indirect_factor", indirect}, {"distance_to_lights", p.near}};
   // Another surface shows in all lengths there.
   const std::size_t free = light_of_a_lamp ? direct_groups(e) : e.other.size();
-  cause.misfit = e.misfit(m.predicted, {}, m.place, free);
   cause.parameters = p.cells * COLOURS * free + m.factors;
+  cause.misfit = e.misfit(m.predicted, {}, m.place, free);
+  if (light_of_a_lamp && e.by_length()) cause.misfit -= beyond_noise(e);
   causes.push_back(std::move(cause));
 }
 
