@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -68,6 +69,14 @@ void add_notes_of_files(const NamedImage& a, const NamedImage& b, Explanation& x
   const std::string of_a = settings_of(a), of_b = settings_of(b);
   if (!of_a.empty() && !of_b.empty() && of_a != of_b)
     x.notes.push_back(fmt::format("the files tell settings that differ: A {}; B {}", of_a, of_b));
+  for (const NamedImage* named : {&a, &b}) {
+    const std::string cap = "max-depth ", settings = settings_of(*named);
+    const std::size_t at = settings.find(cap);
+    if (at == std::string::npos || !std::isdigit(settings[at + cap.size()])) continue;
+    x.notes.push_back(
+        fmt::format("'{}' was rendered with --max-depth {}: longer paths are not in it",
+                    named->name, std::stol(settings.substr(at + cap.size()))));
+  }
   for (const NamedImage* named : {&a, &b})
     if (!settings_of(*named).empty() && !pixels_are_independent(named->image)) {
       x.notes.push_back(
@@ -115,10 +124,13 @@ std::string explanation_text(const Explanation& x) {
   if (!x.advice.empty()) text += wrapped("Next: " + x.advice + ".");
   text += table(x, x.lengths, x.by_regression ? "length, by regression" : "length");
   if (!x.strategies.empty()) text += table(x, x.strategies, "strategy");
-  text += fmt::format("  {:<22}{:>12}{:>12}{:>14}\n", "cause", "explains", "leaves", "probability");
+  if (x.finding != Finding::none)
+    text +=
+        fmt::format("  {:<22}{:>12}{:>12}{:>14}\n", "cause", "explains", "leaves", "probability");
   for (const Ranked& r : x.causes)
-    text += fmt::format("  {:<22}{:>10.1f} %{:>12.4g}{:>14.3g}\n", r.cause.id, 100 * r.explained,
-                        r.cause.misfit, r.probability);
+    if (x.finding != Finding::none)
+      text += fmt::format("  {:<22}{:>10.1f} %{:>12.4g}{:>14.3g}\n", r.cause.id, 100 * r.explained,
+                          r.cause.misfit, r.probability);
   for (const std::string& note : x.notes) text += wrapped("Note: " + note + ".");
   return text;
 }

@@ -1,7 +1,9 @@
 // Distributions: the error function, the incomplete beta function, and inverses by bisection.
 #include "base/statistics.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "base/error.h"
@@ -74,6 +76,14 @@ double student_cdf(double t, double dof) {
 double student_quantile(double p, double dof) {
   if (p > 0.5) return -student_quantile(1 - p, dof);  // the lower tail has all its digits
   return inverse([&](double t) { return student_cdf(t, dof); }, p);
+}
+
+double median(std::vector<double> values) {
+  PELLUCID_CHECK(!values.empty(), "a median of something");
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
 }  // namespace pellucid

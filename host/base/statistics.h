@@ -1,6 +1,8 @@
 // Distributions that intervals and tests need.
 #pragma once
 
+#include <vector>
+
 namespace pellucid {
 
 /// P(Z <= z) of the standard normal distribution, to full precision in both tails.
@@ -12,5 +14,8 @@ double normal_quantile(double p);
 double student_cdf(double t, double dof);
 /// Its inverse, for 0 < p < 1.
 double student_quantile(double p, double dof);
+
+/// Of at least one value.
+double median(std::vector<double> values);
 
 }  // namespace pellucid

@@ -22,6 +22,7 @@ struct Cause {
   std::vector<std::pair<std::string, double>> figures;  ///< for scripts
   double misfit = 0;           ///< what it leaves: sum of squares over variances
   std::size_t parameters = 0;  ///< unknowns that were fitted
+  Layers predicted;            ///< layers by length, where the cause is all over the picture
 };
 using Causes = std::vector<Cause>;
 

@@ -21,10 +21,10 @@ struct Kind {
   bool keeps_colour;  ///< all channels by the same factor, of the brightest
 };
 constexpr Kind KINDS[] = {
-    {"samples", "values of samples above {level:.4g}, by channel, are cut", true, false},
-    {"samples-colour", "samples brighter than {level:.4g} in any channel are scaled down to it",
-     true, true},
-    {"picture", "values of the picture above {level:.4g} are cut", false, false},
+    {"samples", "values of samples above about {level:.3g}, by channel, are cut", true, false},
+    {"samples-colour",
+     "samples brighter than about {level:.3g} in any channel are scaled down to it", true, true},
+    {"picture", "values of the picture above {level:.3g} are cut", false, false},
 };
 
 /// Per pixel and channel: values that are cut, and how bright they were before the filter.
@@ -112,7 +112,8 @@ void try_clamp(const Case& c, Causes& causes) {
     const Bright bright = bright_values(c, kind);
     if (!(*std::max_element(bright.level.begin(), bright.level.end()) > 0)) continue;
     const double level = best_level(e, bright);
-    const double misfit = e.misfit(clamped(e, bright, level));
+    Layers predicted = clamped(e, bright, level);
+    const double misfit = e.misfit(predicted);
     if (!best.id.empty() && misfit >= best.misfit) continue;
     best.id = "clamp";
     best.words =
@@ -124,6 +125,7 @@ void try_clamp(const Case& c, Causes& causes) {
     best.figures = {{"clamp", level},
                     {"of_samples", double(kind.samples)},
                     {"keeps_colour", double(kind.keeps_colour)}};
+    best.predicted = std::move(predicted);
     best.misfit = misfit;
     best.parameters = 1;
   }

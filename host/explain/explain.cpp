@@ -29,27 +29,60 @@ double part(double misfit, double before, double noise) {
   return before > noise ? std::clamp((before - misfit) / (before - noise), 0.0, 1.0) : 0;
 }
 
-/// Sorted by what they leave, and what their unknowns cost [Schwarz78].
-std::vector<Ranked> rank(Causes causes, double before, double observations, double inflation) {
+/// Sorted by what they leave, and what their unknowns cost [Schwarz78]. If even the best one leaves
+/// more than noise, noise is larger than it seemed: `inflation` times.
+std::vector<Ranked> rank(Causes causes, double before, double observations, double& inflation) {
   const double price = std::log(observations);
   double noise = observations;
   for (const Cause& cause : causes) noise = std::min(noise, cause.misfit);
   const auto score = [&](const Cause& c) { return c.misfit + double(c.parameters) * price; };
   std::stable_sort(causes.begin(), causes.end(),
                    [&](const Cause& a, const Cause& b) { return score(a) < score(b); });
+  inflation = causes.empty() ? 1 : std::max(1.0, causes.front().misfit / observations);
+  const double least = causes.empty() ? 0 : score(causes.front());
   std::vector<Ranked> ranked;
   double sum = 0;
   for (Cause& cause : causes) {
     Ranked r;
     r.explained = part(cause.misfit, before, noise);
-    const double behind = (score(cause) - score(causes.front())) / inflation;
-    r.probability = std::exp(-behind / 2);
+    r.probability = std::exp(-(score(cause) - least) / inflation / 2);
     sum += r.probability;
-    r.cause = cause;
+    r.cause = std::move(cause);
     ranked.push_back(std::move(r));
   }
   for (Ranked& r : ranked) r.probability /= sum;
   return ranked;
+}
+
+/// Whether many cells bear out what a cause predicts, or the few that count agree, rather than a
+/// few bright paths that came in the one picture and not in the other. Each cell is weighed by what
+/// is predicted of its neighbours and by their noise, so that by chance it has either sign; sums of
+/// such terms over the root of the sum of their squares have short tails, whatever the noise
+/// [Efron69].
+bool borne_out(const Evidence& e, const Layers& predicted) {
+  constexpr double deviations = 4, one_way = 0.9;
+  const Layers known = e.grouped(e.known), wanted = e.grouped(predicted);
+  const int columns = e.grid.columns, rows = e.grid.rows;
+  std::vector<double> share(e.grid.cells());
+  for (std::size_t g = 0; g < e.other.size(); ++g)
+    for (std::size_t c = 0; c < COLOURS; ++c)
+      for (int y = 0; y < rows; y += e.block[g])
+        for (int x = 0; x < columns; x += e.block[g]) {
+          double change = 0, noise = 0;
+          for (int way = 0; way < 4; ++way) {
+            const int step = way % 2 ? e.block[g] : -e.block[g];
+            const int nx = x + (way < 2 ? step : 0), ny = y + (way < 2 ? 0 : step);
+            if (nx < 0 || ny < 0 || nx >= columns || ny >= rows) continue;
+            const std::size_t n = c * e.grid.cells() + std::size_t(ny * columns + nx);
+            change += wanted[g][n] - known[g][n];
+            noise += e.variance(g, n);
+          }
+          const std::size_t i = std::size_t(y * columns + x), j = c * e.grid.cells() + i;
+          if (noise > 0) share[i] += (e.other[g][j] - known[g][j]) * change / noise;
+        }
+  double sum = 0, squares = 0, sizes = 0;
+  for (const double s : share) sum += s, squares += s * s, sizes += std::abs(s);
+  return sum > deviations * std::sqrt(squares) || sum > one_way * sizes;
 }
 
 std::string energy_words(const Evidence& e, const Names& names) {
@@ -77,7 +110,10 @@ double detectable_part(const Evidence& e) {
 void conclude(const Evidence& e, double significance, double scatter, Explanation& x) {
   const Ranked* best = x.causes.empty() ? nullptr : &x.causes.front();
   const std::string energies = energy_words(e, x.names);
-  if (significance < DIFFERENT) {
+  const bool few_paths = significance >= DIFFERENT && !best->cause.predicted.empty() &&
+                         !borne_out(e, best->cause.predicted);
+  if (few_paths) x.notes.push_back("a few bright paths make the noise: more samples may show more");
+  if (significance < DIFFERENT || few_paths) {
     x.finding = scatter < SCATTERED ? Finding::none : Finding::unexplained;
     x.words = x.finding == Finding::none
                   ? fmt::format(
@@ -185,10 +221,7 @@ Explanation explain(const Layered& known, const Layered& other, const Names& nam
   x.names = names;
   x.by_regression = !e.by_length();
   double inflation = 1;
-  for (int round = 0; round < 2; ++round) {  // the best one tells how much noise is left
-    x.causes = rank(causes, before, observations, inflation);
-    if (!x.causes.empty()) inflation = std::max(1.0, x.causes.front().cause.misfit / observations);
-  }
+  x.causes = rank(std::move(causes), before, observations, inflation);
   double significance = 0;
   if (!x.causes.empty()) {
     const Cause& best = x.causes.front().cause;

@@ -121,6 +121,7 @@ void add_range(const Case& c, std::size_t first, std::size_t last, const char* i
   if (fit.factors.by_channel) cause.words += by_channel;
   cause.advice = advice;
   add_figures(fit.factors, "factor", cause);
+  cause.predicted = scaled(e, first, last, fit.factors.value);
   cause.misfit = fit.misfit;
   cause.parameters = fit.parameters;
   causes.push_back(std::move(cause));
@@ -137,36 +138,47 @@ std::string guess_cap(const Evidence& e, double factor) {
   return fmt::format("; a cap at about {:.0f} segments would do that", double(n - 1) + more);
 }
 
-Cause late(const Case& c, std::size_t cut, Factor f) {
+Cause late(const Case& c, std::size_t cut) {
   const Evidence& e = c.evidence;
+  const Factor f = fit_factor(e, cut, e.lengths(), {});
   Cause cause;
   cause.id = "late-paths";
   cause.figures = {{"longest_equal", double(cut)}, {"factor", f.value}, {"factor_error", f.error}};
   cause.words = fmt::format(
       "{} has {:.4g} times {}'s light in paths of more than {} segments, and "
-      "the same in shorter ones: a depth cap farther out, or roulette that "
-      "ends paths without making up for it",
+      "the same in shorter ones: ",
       c.names.other, f.value, c.names.known, cut);
-  if (cut + 1 == e.lengths()) cause.words += guess_cap(e, f.value);
+  if (f.value < 1) {
+    cause.words += "a depth cap farther out, or roulette that ends paths without making up for it";
+    if (cut + 1 == e.lengths()) cause.words += guess_cap(e, f.value);
+  } else {
+    cause.words +=
+        fmt::format("roulette that makes up for too much, or a depth cap of {}", c.names.known);
+  }
   cause.advice = fmt::format(
       "render {} with a longer --aov-length, and switch roulette off in the "
       "program that made {}",
       c.names.known, c.names.other);
+  cause.predicted = scaled(e, cut, e.lengths(), {f.value, f.value, f.value});
+  cause.misfit = e.misfit(cause.predicted);
   cause.parameters = 2;
   return cause;
 }
 
-Cause cap(const Case& c, std::size_t cut) {
+/// `ends` has no light beyond, and `goes_on` does.
+Cause cap(const Evidence& e, const std::string& ends, const std::string& goes_on, std::size_t cut,
+          Layers predicted) {
   Cause cause;
   cause.id = "depth-cap";
   cause.figures = {{"max_depth", double(cut)}};
   cause.words = fmt::format(
       "{} has no light from paths of more than {} segments, and the same as "
       "{} in shorter ones: a depth cap",
-      c.names.other, cut, c.names.known);
-  cause.advice =
-      fmt::format("render {} with --max-depth {} and compare again, or lift the cap of {}",
-                  c.names.known, cut, c.names.other);
+      ends, cut, goes_on);
+  cause.advice = fmt::format(
+      "render {} with --max-depth {} and compare again, or lift the cap of {}", goes_on, cut, ends);
+  cause.predicted = std::move(predicted);
+  cause.misfit = e.misfit(cause.predicted);
   cause.parameters = 1;
   return cause;
 }
@@ -177,19 +189,32 @@ void try_late(const Case& c, Causes& causes) {
   Cause best_cap, best_late;
   for (std::size_t cut = 2; cut < e.lengths(); ++cut) {
     if (!has_light(e, cut, e.lengths())) break;
-    Cause capped = cap(c, cut);
-    capped.misfit = e.misfit(scaled(e, cut, e.lengths(), {0, 0, 0}));
-    if (best_cap.id.empty() || capped.misfit < best_cap.misfit) best_cap = capped;
-    const Factor f = fit_factor(e, cut, e.lengths(), {});
-    Cause part = late(c, cut, f);
-    part.misfit = e.misfit(scaled(e, cut, e.lengths(), {f.value, f.value, f.value}));
-    if (best_late.id.empty() || part.misfit < best_late.misfit) best_late = part;
+    Cause capped =
+        cap(e, c.names.other, c.names.known, cut, scaled(e, cut, e.lengths(), {0, 0, 0}));
+    if (best_cap.id.empty() || capped.misfit < best_cap.misfit) best_cap = std::move(capped);
+    Cause part = late(c, cut);
+    if (best_late.id.empty() || part.misfit < best_late.misfit) best_late = std::move(part);
   }
   if (best_cap.id.empty()) return;
   // A factor of nothing is the cap.
   const double factor = best_late.figures[1].second, error = best_late.figures[2].second;
   causes.push_back(std::move(best_cap));
   if (factor > std::max(NOTHING, SURE * error)) causes.push_back(std::move(best_late));
+}
+
+/// The known picture is the one that ends.
+void try_known_cap(const Case& c, Causes& causes) {
+  const Evidence& e = c.evidence;
+  std::size_t cut = e.lengths();
+  while (cut > 2 && !has_light(e, cut - 1, e.lengths())) --cut;
+  if (!e.by_length() || cut == e.lengths()) return;
+  Layers predicted = e.known;
+  double beyond = 0;
+  for (std::size_t layer = cut; layer < e.lengths(); ++layer) {
+    predicted[layer] = e.other[layer];
+    beyond += energy(e.other[layer]);
+  }
+  if (beyond > 0) causes.push_back(cap(e, c.names.known, c.names.other, cut, std::move(predicted)));
 }
 
 /// Layers times q^(segments - 1). The last layer holds all longer paths: if they decay as they did
@@ -244,6 +269,7 @@ void try_factors(const Case& c, Causes& causes) {
             "look whether lights are hidden from the camera, or the background is replaced",
             causes);
   try_late(c, causes);
+  try_known_cap(c, causes);
 }
 
 void try_albedo(const Case& c, Causes& causes) {
@@ -266,8 +292,8 @@ void try_albedo(const Case& c, Causes& causes) {
   Cause cause;
   cause.id = "albedo";
   cause.words =
-      fmt::format("{} is {} times {} for every bounce: surfaces reflect so much {}", c.names.other,
-                  c.names.known, best.factors.text(), best.factors.value[0] > 1 ? "more" : "less");
+      fmt::format("{} is {} times {} for every bounce: surfaces reflect so many times as much",
+                  c.names.other, c.names.known, best.factors.text());
   if (best.factors.by_channel)
     cause.words +=
         "; the channels differ, so reflectances may be taken in another colour space (sRGB for "
@@ -277,6 +303,7 @@ void try_albedo(const Case& c, Causes& causes) {
       "are sRGB or linear",
       c.names.other);
   add_figures(best.factors, "per_bounce", cause);
+  cause.predicted = per_bounce(e, best.factors.value);
   cause.misfit = best.misfit;
   cause.parameters = best.parameters;
   causes.push_back(std::move(cause));
@@ -315,6 +342,7 @@ void try_colour_space(const Case& c, Causes& causes) {
       cause.figures.emplace_back(fmt::format("{}_from_{}", "rgb"[to], "rgb"[from]), row[from]);
   }
   cause.misfit = e.misfit(predicted);
+  cause.predicted = std::move(predicted);
   cause.words = fmt::format("{} is {} times the matrix {}: another colour space of the picture",
                             c.names.other, c.names.known, matrix);
   cause.advice = "write both pictures in linear Rec.709";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/statistics.h"
 #include "explain/causes.h"
 #include "explain/least_squares.h"
 
@@ -114,11 +115,9 @@ std::vector<char> apart_from_most(const Evidence& e) {
   std::vector<double> ratios;
   for (const CellLight& cell : direct_light(e, e.known))
     ratios.push_back(cell.predicted > 0 ? cell.other / cell.predicted : 1);
-  std::vector<double> sorted = ratios;
-  const auto middle = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double middle = median(ratios);
   std::vector<char> apart;
-  for (const double r : ratios) apart.push_back(r > ANEW * *middle || ANEW * r < *middle);
+  for (const double r : ratios) apart.push_back(r > ANEW * middle || ANEW * r < middle);
   return apart;
 }
 

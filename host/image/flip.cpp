@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "image/flip_filters.h"
 #include "image/image_pair.h"
 
@@ -191,14 +192,6 @@ class Flip {
 double aces_inverse(double y) {
   const double a = 2.51 - 2.43 * y, b = 0.03 - 0.59 * y, c = -0.14 * y;
   return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a) / 0.6;
-}
-
-/// Of at least one value; reorders them.
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
 }  // namespace

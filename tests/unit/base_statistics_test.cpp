@@ -39,5 +39,11 @@ TEST(Statistics, quantiles_invert) {
       EXPECT_NEAR(student_cdf(student_quantile(p, dof), dof), p, 1e-13) << dof << ' ' << p;
 }
 
+TEST(Statistics, median_of_odd_and_even_numbers) {
+  EXPECT_EQ(median({3}), 3);
+  EXPECT_EQ(median({9, 1, 5}), 5);
+  EXPECT_EQ(median({4, 1, 9, 2}), 3);
+}
+
 }  // namespace
 }  // namespace pellucid
