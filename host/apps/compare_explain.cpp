@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -16,6 +15,8 @@ namespace {
 using namespace explain;
 
 constexpr int text_width = 96;
+/// Pixels: sixteen cells that noise is told by (explain/layered.h).
+constexpr int least_side = 16;
 
 /// Words in lines of that width, each after two blanks.
 std::string wrapped(const std::string& text) {
@@ -64,18 +65,25 @@ std::string settings_of(const NamedImage& named) {
                             : integrator + " " + text_attribute(named.image, "pellucid:settings");
 }
 
+/// The digits after "max-depth "; "" where there are none.
+std::string depth_cap_of(const std::string& settings) {
+  const std::string name = "max-depth ";
+  const std::size_t at = settings.find(name);
+  if (at == std::string::npos) return "";
+  const std::size_t first = at + name.size();
+  return settings.substr(first, settings.find_first_not_of("0123456789", first) - first);
+}
+
 /// What the files themselves tell.
 void add_notes_of_files(const NamedImage& a, const NamedImage& b, Explanation& x) {
   const std::string of_a = settings_of(a), of_b = settings_of(b);
   if (!of_a.empty() && !of_b.empty() && of_a != of_b)
     x.notes.push_back(fmt::format("the files tell settings that differ: A {}; B {}", of_a, of_b));
   for (const NamedImage* named : {&a, &b}) {
-    const std::string cap = "max-depth ", settings = settings_of(*named);
-    const std::size_t at = settings.find(cap);
-    if (at == std::string::npos || !std::isdigit(settings[at + cap.size()])) continue;
-    x.notes.push_back(
-        fmt::format("'{}' was rendered with --max-depth {}: longer paths are not in it",
-                    named->name, std::stol(settings.substr(at + cap.size()))));
+    const std::string cap = depth_cap_of(settings_of(*named));
+    if (!cap.empty())
+      x.notes.push_back(fmt::format(
+          "'{}' was rendered with --max-depth {}: longer paths are not in it", named->name, cap));
   }
   for (const NamedImage* named : {&a, &b})
     if (!settings_of(*named).empty() && !pixels_are_independent(named->image)) {
@@ -93,6 +101,11 @@ Explanation explain_pair(const NamedImage& a, const NamedImage& b) {
     if (colour_channels(named->image).size() != COLOURS)
       throw InputError(
           fmt::format("--explain takes pictures with R, G and B, not '{}'", named->name));
+  if (a.image.width < least_side || a.image.height < least_side)
+    throw InputError(
+        fmt::format("--explain: '{}' has {}x{} pixels, and it takes {}x{} to tell noise "
+                    "from a difference",
+                    a.name, a.image.width, a.image.height, least_side, least_side));
   const Layered of_a(a.image), of_b(b.image);
   if (of_a.layers() == 0 && of_b.layers() == 0)
     throw UsageError(fmt::format(

@@ -128,7 +128,8 @@ def test_no_fault():
 def test_what_is_told():
     out, _ = expect(0, ["compare", "a.exr", "cap.exr", "--explain"])
     for part in ("B has no light from paths of more than 10 segments", "a depth cap",
-                 "Next: render A with --max-depth 10", "15 and longer", "max-depth 10", "depth-cap"):
+                 "Next: render A with --max-depth 10", "15 and longer", "depth-cap",
+                 "'cap.exr' was rendered with --max-depth 10"):
         check(part in " ".join(out.split()), f"text tells {part!r}", out)
     # Whichever has layers is the one that is known.
     strip("a.exr", "bare.exr")
@@ -167,6 +168,12 @@ def test_usage():
     expect(3, ["compare", "odd.exr", "plain.exr", "--explain"], "--explain", "odd.exr", "add up")
     found = explain("s1.exr", "odd.exr")
     check(found["by_regression"] and any("left aside" in note for note in found["notes"]), "told", found["notes"])
+    subprocess.run(["oiiotool", "s1.exr", "--sattrib", "pellucid:settings", "max-depth 9" + "9" * 30, "-o", "odd.exr"],
+                   check=False, capture_output=True)
+    check(any("--max-depth 999" in note for note in explain("s2.exr", "odd.exr")["notes"]), "odd settings")
+    subprocess.run(["oiiotool", "s1.exr", "--crop", "12x12+4+2", "--fullpixels", "-o", "small.exr"], check=False,
+                   capture_output=True)
+    expect(3, ["compare", "small.exr", "small.exr", "--explain"], "small.exr", "12x12", "16x16")
     subprocess.run(["oiiotool", "plain.exr", "--ch", "G", "-o", "grey.exr"], check=False, capture_output=True)
     expect(3, ["compare", "grey.exr", "grey.exr", "--explain"], "grey.exr", "R, G and B")
     expect(3, ["compare", "s1.exr", "a.exr", "--explain"], "sizes differ")

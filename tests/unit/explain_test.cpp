@@ -213,10 +213,10 @@ TEST(Explain, depth_cap_and_roulette) {
   expect_cause(
       changed(cut), "depth-cap", [](const Explanation& x) { EXPECT_EQ(figure(x, "max_depth"), 5); },
       0.02);
-  const Explanation x = explain_images(picture(changed(cut), 0.02, 1), picture(room(), 0.02, 2));
-  EXPECT_EQ(x.finding, Finding::cause) << x.words;
-  EXPECT_NE(x.words.find("A has no light from paths of more than 5 segments"), std::string::npos)
-      << x.words;
+  const Explanation of_a = explain_images(picture(changed(cut), 0.02, 1), picture(room(), 0.02, 2));
+  EXPECT_EQ(of_a.finding, Finding::cause) << of_a.words;
+  EXPECT_NE(of_a.words.find("A has no light from paths of more than 5 segments"), std::string::npos)
+      << of_a.words;
   const Change half = [](std::size_t layer, int, int, std::array<double, 3>& v) {
     for (double& value : v) value *= layer >= 4 ? 0.5 : 1;
   };
