@@ -61,9 +61,10 @@ std::vector<Ranked> rank(Causes causes, double before, double observations, doub
 /// [Efron69].
 bool borne_out(const Evidence& e, const Layers& predicted) {
   constexpr double deviations = 4, one_way = 0.9;
+  constexpr double few = 9;  // cells, as a lamp may have: their neighbours say nothing of them
   const Layers known = e.grouped(e.known), wanted = e.grouped(predicted);
   const int columns = e.grid.columns, rows = e.grid.rows;
-  std::vector<double> share(e.grid.cells());
+  std::vector<double> share(e.grid.cells()), own(e.grid.cells());
   for (std::size_t g = 0; g < e.other.size(); ++g)
     for (std::size_t c = 0; c < COLOURS; ++c)
       for (int y = 0; y < rows; y += e.block[g])
@@ -78,10 +79,13 @@ bool borne_out(const Evidence& e, const Layers& predicted) {
             noise += e.variance(g, n);
           }
           const std::size_t i = std::size_t(y * columns + x), j = c * e.grid.cells() + i;
+          own[i] += std::abs(wanted[g][j] - known[g][j]);
           if (noise > 0) share[i] += (e.other[g][j] - known[g][j]) * change / noise;
         }
-  double sum = 0, squares = 0, sizes = 0;
+  double sum = 0, squares = 0, sizes = 0, all = 0, all_squares = 0;
   for (const double s : share) sum += s, squares += s * s, sizes += std::abs(s);
+  for (const double change : own) all += change, all_squares += change * change;
+  if (all * all < few * all_squares) return true;
   return sum > deviations * std::sqrt(squares) || sum > one_way * sizes;
 }
 

@@ -127,13 +127,18 @@ void add_range(const Case& c, std::size_t first, std::size_t last, const char* i
   causes.push_back(std::move(cause));
 }
 
+/// Part of the light of one length and all longer ones that longer ones have: by that they decay,
+/// if they go on as they began. 0: nothing tells it.
+double decay_of(double length, double longer) {
+  return length > 0 && longer > 0 ? longer / (length + longer) : 0;
+}
+
 /// What a factor on all that is longer than the lengths with layers says of a cap: the share of a
 /// geometric tail that is below it.
 std::string guess_cap(const Evidence& e, double factor) {
   const std::size_t n = e.lengths();
-  const double last = energy(e.known[n - 2]), rest = energy(e.known[n - 1]);
-  const double decay = rest / (last + rest);
-  if (!(factor > 0 && factor < 1 && decay > 0 && decay < 1)) return "";
+  const double decay = decay_of(energy(e.known[n - 2]), energy(e.known[n - 1]));
+  if (!(factor > 0 && factor < 1 && decay > 0)) return "";
   const double more = std::log1p(-factor) / std::log(decay);
   return fmt::format("; a cap at about {:.0f} segments would do that", double(n - 1) + more);
 }
@@ -217,14 +222,18 @@ void try_known_cap(const Case& c, Causes& causes) {
   if (beyond > 0) causes.push_back(cap(e, c.names.known, c.names.other, cut, std::move(predicted)));
 }
 
+double tail_decay(const Evidence& e, std::size_t c) {
+  const std::size_t n = e.lengths();
+  return decay_of(energy(e.grid, e.known[n - 2], c), energy(e.grid, e.known[n - 1], c));
+}
+
 /// Layers times q^(segments - 1). The last layer holds all longer paths: if they decay as they did
 /// from the length before, by g, they are sum A g^i, and with q for every bounce sum A (g q)^i.
 Layers per_bounce(const Evidence& e, const Colours& q) {
   Layers layers = e.known;
   const std::size_t n = e.lengths();
   for (std::size_t c = 0; c < COLOURS; ++c) {
-    const double last = energy(e.grid, e.known[n - 2], c), rest = energy(e.grid, e.known[n - 1], c);
-    const double decay = last + rest > 0 ? rest / (last + rest) : 0;
+    const double decay = tail_decay(e, c);
     for (std::size_t layer = 0; layer < n; ++layer) {
       double factor = std::pow(q[c], double(layer));
       if (layer == n - 1) factor *= (1 - decay) / (1 - decay * q[c]);
@@ -236,15 +245,17 @@ Layers per_bounce(const Evidence& e, const Colours& q) {
 }
 
 Factor fit_per_bounce(const Evidence& e, Channels channels) {
-  constexpr double least_change = 0.5, most_change = 1.5;  // what may be called an albedo's change
-  for (std::size_t c = channels.first; c < channels.last; ++c)
-    if (energy(e.grid, e.known[1], c) > 0)
-      return least(
-          [&](double q) {
-            return e.misfit(per_bounce(e, {q, q, q}), channels);
-          },
-          least_change, most_change);
-  return {};
+  // What may be called an albedo's change, and keeps the tail's sum finite.
+  constexpr double least_change = 0.5, most_change = 1.5, of_tail = 0.99;
+  double most = most_change;
+  bool lit = false;
+  for (std::size_t c = channels.first; c < channels.last; ++c) {
+    lit = lit || energy(e.grid, e.known[1], c) > 0;
+    if (tail_decay(e, c) > 0) most = std::min(most, std::max(1.0, of_tail / tail_decay(e, c)));
+  }
+  if (!lit) return {};
+  const auto misfit = [&](double q) { return e.misfit(per_bounce(e, {q, q, q}), channels); };
+  return least(misfit, least_change, most);
 }
 
 }  // namespace
