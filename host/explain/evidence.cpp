@@ -94,8 +94,7 @@ Layers Evidence::grouped(const Layers& layers) const {
 
 std::size_t Evidence::observations(std::size_t group) const {
   const int side = block[group];
-  return COLOURS * std::size_t((grid.columns + side - 1) / side) *
-         std::size_t((grid.rows + side - 1) / side);
+  return std::size_t((grid.columns + side - 1) / side) * std::size_t((grid.rows + side - 1) / side);
 }
 
 std::size_t Evidence::observations() const {
@@ -133,7 +132,7 @@ double Evidence::misfit(const Layers& predicted, Channels channels,
       const double off = other[g][j] - value;
       sum += quotient(off * off, noise);
     }
-  return sum;
+  return sum / double(channels.last - channels.first);
 }
 
 Evidence gather(const Layered& known, const Layered& other, bool by_length) {

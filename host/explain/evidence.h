@@ -27,6 +27,8 @@ struct Evidence {
 
   std::size_t lengths() const { return known.size(); }
   bool by_length() const { return other.size() > 1; }
+  /// Cells, or blocks of them, of all groups or of one. The same paths make all channels, whose
+  /// noise goes up and down together: they count as one.
   std::size_t observations() const;
   std::size_t observations(std::size_t group) const;
   /// Cell of a pixel, or of the block it is in.
@@ -35,9 +37,10 @@ struct Evidence {
   Layers grouped(const Layers& layers) const;
   /// Of other - known in a group.
   double variance(std::size_t group, std::size_t j) const;
-  /// How badly layers by length predict the other picture: sum of squares over variances. A layer
-  /// that is f times the known one has f times its noise; so a noisy layer does not look like less
-  /// light [Deming43]. `skipped`: cells that do not count in the first `direct` groups.
+  /// How badly layers by length predict the other picture: sum of squares over variances, mean of
+  /// channels. A layer that is f times the known one has f times its noise; so a noisy layer does
+  /// not look like less light [Deming43]. `skipped`: cells that do not count in the first `direct`
+  /// groups.
   double misfit(const Layers& predicted, Channels channels = {},
                 const std::vector<char>& skipped = {}, std::size_t direct = 0) const;
 };

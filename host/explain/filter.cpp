@@ -97,7 +97,8 @@ void try_filter(const Case& c, Causes& causes, double& unexplained) {
   });
   const double error = std::sqrt(scatter) / xx, part = before > 0 ? 1 - after / before : 0;
   if (!(std::abs(h) > SURE * error) || part < LEAST_PART) return;
-  unexplained = error > 0 ? h * h / (error * error) : double(c.evidence.observations());
+  unexplained =
+      error > 0 ? h * h / (error * error) / double(COLOURS) : double(c.evidence.observations());
   Cause cause;
   cause.id = "filter";
   cause.words = fmt::format(

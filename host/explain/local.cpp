@@ -250,7 +250,7 @@ void try_local(const Case& c, Causes& causes) {
       {"cells", double(p.cells)}, {"indirect_factor", indirect}, {"distance_to_lights", p.near}};
   // Another surface shows in all lengths there.
   const std::size_t free = light_of_a_lamp ? direct_groups(e) : e.other.size();
-  cause.parameters = p.cells * COLOURS * free + m.factors;
+  cause.parameters = p.cells * free + m.factors;
   cause.misfit = e.misfit(m.predicted, {}, m.place, free);
   if (light_of_a_lamp && e.by_length()) cause.misfit -= beyond_noise(e);
   causes.push_back(std::move(cause));

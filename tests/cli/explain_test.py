@@ -18,7 +18,7 @@ from harness import QUICK, SOURCE, check, document, expect, run_tests, write_tex
 
 LAYERS = ["--aov", "length", "--aov-length", "14"]
 # Enough for light beyond 10 segments, 0.3 % of the energy, to show in the sum of all lengths.
-MANY, SOME = "2048", "256"
+MANY, SOME = "4096", "256"
 
 
 def wall(material, corner, *edges):
