@@ -78,7 +78,7 @@ double student_quantile(double p, double dof) {
   return inverse([&](double t) { return student_cdf(t, dof); }, p);
 }
 
-double median(std::vector<double> values) {
+double median_of(std::vector<double> values) {
   PELLUCID_CHECK(!values.empty(), "a median of something");
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

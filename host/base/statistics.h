@@ -16,6 +16,6 @@ double student_cdf(double t, double dof);
 double student_quantile(double p, double dof);
 
 /// Of at least one value.
-double median(std::vector<double> values);
+double median_of(std::vector<double> values);
 
 }  // namespace pellucid

@@ -115,7 +115,7 @@ std::vector<char> apart_from_most(const Evidence& e) {
   std::vector<double> ratios;
   for (const CellLight& cell : direct_light(e, e.known))
     ratios.push_back(cell.predicted > 0 ? cell.other / cell.predicted : 1);
-  const double middle = median(ratios);
+  const double middle = median_of(ratios);
   std::vector<char> apart;
   for (const double r : ratios) apart.push_back(r > ANEW * middle || ANEW * r < middle);
   return apart;

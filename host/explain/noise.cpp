@@ -58,7 +58,7 @@ double noise_ratio(const Steps& s, std::size_t first, std::size_t last) {
     all_a += s.aa[j], all_b += s.bb[j];
     if (s.aa[j] > 0 && s.bb[j] > 0) ratios.push_back(s.bb[j] / s.aa[j]);
   }
-  return ratios.empty() ? quotient(all_b, all_a) : median(ratios);
+  return ratios.empty() ? quotient(all_b, all_a) : median_of(ratios);
 }
 
 /// Variances of a pixel: the steps of each picture without what is common: that is what the cell
@@ -123,7 +123,7 @@ double spread_of_cells(const Grid& grid, const Sums& a, const Sums& b, const Noi
         if (x > 0 && x + 1 < grid.columns) add(i, 1);
         if (y > 0 && y + 1 < grid.rows) add(i, std::size_t(grid.columns));
       }
-  return ratios.empty() ? 1 : std::max(1.0, median(ratios) / MEDIAN_SQUARE);
+  return ratios.empty() ? 1 : std::max(1.0, median_of(ratios) / MEDIAN_SQUARE);
 }
 
 }  // namespace

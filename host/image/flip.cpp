@@ -210,10 +210,10 @@ ExposureRange flip_exposures(const Image& reference) {
   }
   const double most = all.empty() ? 0 : *std::max_element(all.begin(), all.end());
   if (!(most > 0)) return {};
-  double middle = median(all);
+  double middle = median_of(all);
   if (!(middle > 0)) {
     all.erase(std::remove(all.begin(), all.end(), 0.0), all.end());
-    middle = median(all);
+    middle = median_of(all);
   }
   ExposureRange range;
   range.start = std::log2(aces_inverse(bright) / most);

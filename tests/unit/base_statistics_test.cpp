@@ -40,9 +40,9 @@ TEST(Statistics, quantiles_invert) {
 }
 
 TEST(Statistics, median_of_odd_and_even_numbers) {
-  EXPECT_EQ(median({3}), 3);
-  EXPECT_EQ(median({9, 1, 5}), 5);
-  EXPECT_EQ(median({4, 1, 9, 2}), 3);
+  EXPECT_EQ(median_of({3}), 3);
+  EXPECT_EQ(median_of({9, 1, 5}), 5);
+  EXPECT_EQ(median_of({4, 1, 9, 2}), 3);
 }
 
 }  // namespace
