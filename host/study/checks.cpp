@@ -30,18 +30,13 @@ Spread spread_of(const std::vector<StudyRun>& runs, F&& value) {
   return s;
 }
 
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
-}
-
 /// Seconds for a sample per pixel in each run, over their median.
 std::vector<double> rates(const StudyOption& option) {
   std::vector<double> out;
   for (const StudyRun& run : option.runs)
     if (!run.rungs.empty()) out.push_back(run.rungs.back().seconds / double(run.rungs.back().spp));
   if (out.empty()) return out;
-  const double middle = median(out);
+  const double middle = median_of(out);
   for (double& rate : out) rate /= middle;
   return out;
 }
@@ -126,7 +121,7 @@ void check_machine(Study& s) {
     last.insert(last.end(), r.end() - std::ptrdiff_t(third), r.end());
   }
   if (all.empty()) return;
-  const double drift = median(last) / median(first) - 1;
+  const double drift = median_of(last) / median_of(first) - 1;
   std::sort(all.begin(), all.end());
   const double spread = all[all.size() * 3 / 4] - all[all.size() / 4];
   if (std::abs(drift) > most_change)
