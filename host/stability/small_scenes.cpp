@@ -1,9 +1,9 @@
 // Small scenes in code.
-#include "support/test_scenes.h"
+#include "stability/small_scenes.h"
 
 #include <cmath>
 
-namespace pellucid::test {
+namespace pellucid::stability {
 
 glm::dvec3 Random::direction() {
   const double z = uniform(-1, 1), phi = uniform(0, 6.283185307179586);
@@ -61,4 +61,54 @@ Mesh scattered(Random& random, int triangles, double low, double high) {
   return baked(std::move(raw));
 }
 
-}  // namespace pellucid::test
+Scene pane_scene(Scene scene) {
+  scene.materials.push_back(Material{});
+  scene.materials.back().reflectance = Rgb(0.5);
+  const auto paper = uint(scene.materials.size() - 1);
+  for (Shape& shape : scene.shapes) {
+    Mesh& mesh = std::get<Mesh>(shape.geometry);
+    if (shape.name == "pane") {  // 40 x 40 x 0.125 about z = -0.0625: now from z = 1 to 1.5
+      for (glm::vec3& p : mesh.positions) p.z = p.z < -0.1f ? 1.0f : 1.5f;
+    } else {
+      shape.emission.reset();
+      shape.material = paper;
+      for (glm::vec3& p : mesh.positions) p = {p.x * 0.04f, p.y * 0.04f, 0};  // 4 x 4
+    }
+  }
+  PointLight point;
+  point.position = {0, 0, 2};
+  point.intensity = Rgb(1.0);
+  scene.lights = {point};
+  scene.camera.origin = {0, 0, 0.75};
+  scene.camera.forward = {0, 0, -1};
+  scene.camera.fov = 90;
+  return scene;
+}
+
+Scene scaled(Scene scene, int k) {
+  const double f = std::ldexp(1.0, k);
+  scene.camera.origin *= f;
+  for (Shape& shape : scene.shapes) {
+    if (Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
+      for (glm::vec3& p : mesh->positions) p *= float(f);
+    } else if (Sphere* sphere = std::get_if<Sphere>(&shape.geometry)) {
+      sphere->center *= f;
+      sphere->radius *= f;
+    } else {
+      Disk& disk = std::get<Disk>(shape.geometry);
+      disk.center *= f;
+      disk.radius *= f;
+    }
+  }
+  for (Light& light : scene.lights)
+    if (PointLight* point = std::get_if<PointLight>(&light)) {
+      point->position *= f;
+      point->intensity *= f * f;
+    } else if (SpotLight* spot = std::get_if<SpotLight>(&light)) {
+      spot->position *= f;
+      spot->intensity *= f * f;
+    }
+  return scene;
+}
+
+}  // namespace pellucid::stability

@@ -1,10 +1,10 @@
 // Brute force in double.
-#include "support/brute_force.h"
+#include "stability/brute_force.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace pellucid::test {
+namespace pellucid::stability {
 namespace {
 
 glm::dvec3 vec(const F4& v) {
@@ -73,4 +73,4 @@ BruteHit brute_force_trace(const PackedScene& scene, const glm::dvec3& o, const 
   return best;
 }
 
-}  // namespace pellucid::test
+}  // namespace pellucid::stability

@@ -6,7 +6,7 @@
 
 #include "pack/pack.h"
 
-namespace pellucid::test {
+namespace pellucid::stability {
 
 struct BruteHit {
   double t = 0.0;  ///< 0 without a hit
@@ -20,4 +20,4 @@ BruteHit brute_force_trace(const PackedScene& scene, const glm::dvec3& o, const 
 double distance_to(const PackedScene& scene, uint prim, const glm::dvec3& o, const glm::dvec3& d,
                    double margin);
 
-}  // namespace pellucid::test
+}  // namespace pellucid::stability

@@ -1,12 +1,12 @@
 // Closed forms and quadratures. Directions are in the frame of the surface, z along its normal.
-#include "closed_forms.h"
+#include "stability/closed_forms.h"
 
 #include <cmath>
 #include <complex>
 
-#include "support/statistics.h"
+#include "stability/quadrature.h"
 
-namespace pellucid::test {
+namespace pellucid::stability {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -129,4 +129,4 @@ double phong_albedo(double cos_o, double exponent) {
   return integrate(integrand, 0, 1, 0, 2 * pi, quadrature_tolerance);
 }
 
-}  // namespace pellucid::test
+}  // namespace pellucid::stability

@@ -1,44 +1,23 @@
 // Lists of rays through the device's own traversal.
-#include "support/ray_lists.h"
+#include "stability/traced_scene.h"
 
-#include <gtest/gtest.h>
 #include <algorithm>
-
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "shared/limits.h"
-#include "support/kernel_folder.h"
 
-namespace pellucid::test {
+namespace pellucid::stability {
 namespace {
 
-PackedScene packed_for(const Scene& scene, int width) {
-  return pack_scene(scene, {width ? width : simd_width_for(Device::open("").info())});
-}
-
-PlanOptions plan_options(const RayConfig& config) {
+PlanOptions plan_options(const Lab& lab, const RayConfig& config) {
   PlanOptions options;
   options.simd_builtins = config.builtins;
-  options.kernel_dir = kernel_folder();
+  options.kernel_dir = lab.kernel_dir;
   return options;
 }
 
 }  // namespace
-
-bool full_tier() {
-  const char* tier = std::getenv("PELLUCID_TIER");
-  return tier && std::string(tier) == "full";
-}
-
-void figure(const std::string& name, const std::string& text) {
-  std::printf("%s: %s\n", name.c_str(), text.c_str());
-  std::string key;
-  for (char c : name) key += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  ::testing::Test::RecordProperty(key, text);
-}
 
 std::vector<RayConfig> all_configs() {
   return {{4, true}, {4, false}, {8, true}, {8, false}, {16, true}, {16, false}};
@@ -49,9 +28,15 @@ std::string name_of(const RayConfig& config) {
   return std::to_string(config.width) + (config.builtins ? " builtin" : " portable");
 }
 
-TracedScene::TracedScene(const Scene& scene, const RayConfig& config)
-    : packed(packed_for(scene, config.width)),
-      tracer_(Device::open(""), packed, plan_options(config)) {}
+TracedScene::TracedScene(const Lab& lab, const Scene& scene, const RayConfig& config)
+    : width_(config.width ? config.width : simd_width_for(lab.device.info())),
+      packed(pack_scene(scene, {width_})),
+      tracer_(lab.device, packed, plan_options(lab, config)) {}
+
+void TracedScene::set_scene(const Scene& scene) {
+  packed = pack_scene(scene, {width_});
+  tracer_.set_scene(packed);
+}
 
 std::vector<TraceHit> TracedScene::closest(const std::vector<TraceRay>& rays) {
   tracer_.set_rays(rays);
@@ -136,4 +121,4 @@ void append(RawMesh& mesh, const RawMesh& other) {
     mesh.triangles.emplace_back(t.x + base, t.y + base, t.z + base);
 }
 
-}  // namespace pellucid::test
+}  // namespace pellucid::stability

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-namespace pellucid::test {
+namespace pellucid::stability {
 
 /// Form factor of a point with normal n to a polygon wholly above its horizon: L = rho Le F
 /// [Lambert 1760].
@@ -42,4 +42,4 @@ double plastic_base(double rho, double n);
 /// Albedo of the modified Phong lobe (n + 2) / (2 pi) cos^n seen at cosine `cos_o`.
 double phong_albedo(double cos_o, double exponent);
 
-}  // namespace pellucid::test
+}  // namespace pellucid::stability

@@ -1,23 +1,14 @@
-// Lists of rays through the device's own traversal, for tests of what renders use.
+// Lists of rays through the device's own traversal, the very one that renders use.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "render/ray_tracer.h"
-#include "support/test_scenes.h"
+#include "stability/lab.h"
+#include "stability/small_scenes.h"
 
-namespace pellucid::test {
-
-/// PELLUCID_TIER=full: the sizes that the numerics catalogue asks for, instead of what CI has time
-/// for.
-bool full_tier();
-inline std::size_t tiered(std::size_t ci, std::size_t full) {
-  return full_tier() ? full : ci;
-}
-
-/// Prints a measured figure and records it as a property of the running test.
-void figure(const std::string& name, const std::string& text);
+namespace pellucid::stability {
 
 /// How the traversal is built.
 struct RayConfig {
@@ -35,7 +26,10 @@ struct BothHits {
 /// A scene on the device.
 class TracedScene {
  public:
-  explicit TracedScene(const Scene& scene, const RayConfig& config = {});
+  TracedScene(const Lab& lab, const Scene& scene, const RayConfig& config = {});
+
+  /// Goes on with another scene, quicker than by a TracedScene of its own.
+  void set_scene(const Scene& scene);
 
   std::vector<TraceHit> closest(const std::vector<TraceRay>& rays);
   BothHits both(const std::vector<TraceRay>& rays);
@@ -44,6 +38,10 @@ class TracedScene {
   /// Corner k of a triangle.
   glm::vec3 corner(uint prim, int k) const;
 
+ private:
+  int width_;
+
+ public:
   PackedScene packed;
 
  private:
@@ -76,4 +74,4 @@ RawMesh grid(int n, const glm::dvec3& corner, const glm::dvec3& a, const glm::dv
 /// Appends `other`; triangle ids of `mesh` stay.
 void append(RawMesh& mesh, const RawMesh& other);
 
-}  // namespace pellucid::test
+}  // namespace pellucid::stability
