@@ -4,47 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/error.h"
 #include "integrators/reach.h"
 #include "integrators/registry.h"
 #include "stability/closed_forms.h"
+#include "stability/estimates.h"
 #include "stability/measurements.h"
 #include "stability/quadrature.h"
-#include "stability/renderer.h"
 
 namespace pellucid::stability {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-
-/// How well a value is known at least, from the noise of 4.5 standard errors (7e-6, two-sided).
-constexpr double usual = 0.015;
-
-/// Relative error within noise and `slack`, which is for what is not noise: rounding, footprints.
-void compare(const Lab& lab, Findings& findings, const std::string& what, const Estimate& e,
-             double expected, double slack, double resolution = usual) {
-  const double noise = 4.5 * e.error() / expected;
-  findings.at_most(what + ": relative error", std::abs(e.mean - expected) / expected,
-                   slack + noise);
-  findings.at_most(what + ": resolved to", noise, resolution / std::sqrt(lab.effort));
-}
-
-/// The picture's means, known so well.
-std::array<Estimate, 3> measured_means(const Lab& lab, const Scene& scene, const Build& build,
-                                       Sampling run, double resolution = usual) {
-  Renderer renderer(lab, scene, build);
-  const double error = resolution / std::sqrt(lab.effort) / 6;
-  run.spp =
-      std::max<std::uint64_t>(64, renderer.spp_for(run, error, std::uint64_t(65536 * lab.effort)));
-  return renderer.measure(run).image;
-}
-Estimate measured_mean(const Lab& lab, const Scene& scene, const Build& build,
-                       const Sampling& run) {
-  return measured_means(lab, scene, build, run)[0];
-}
 
 Material metal_without_loss(double alpha) {
   Material m;
@@ -196,7 +169,7 @@ void long_paths_lose_nothing(const Lab& lab, Findings& findings) {
     for (uint depth : view.depths) {
       const Sampling run{64, 1, depth ? std::optional<uint>(depth) : std::nullopt, MIS_BALANCE};
       const bool long_ones = depth == 0 || depth > 11;  // a hundred times the work
-      const double resolution = long_ones ? 2 * usual : usual;
+      const double resolution = long_ones ? 2 * usual_resolution : usual_resolution;
       const std::array<Estimate, 3> means =
           measured_means(lab, scene, {view.method, 8, 8}, run, resolution);
       for (int c = 0; c < 3; ++c)

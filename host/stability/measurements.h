@@ -18,6 +18,9 @@ void panes_let_through_what_they_must(const Lab& lab, Findings& findings);
 void long_paths_lose_nothing(const Lab& lab, Findings& findings);
 // all_scenes.cpp: 4
 void nothing_is_dropped(const Lab& lab, Findings& findings);
+// rigid.cpp: 9, 31
+void far_away_is_as_near(const Lab& lab, Findings& findings);
+void mirrored_is_the_same(const Lab& lab, Findings& findings);
 // exact.cpp: 10, 19, 22
 void scale_changes_no_bit(const Lab& lab, Findings& findings);
 void short_buffers_drop_nothing(const Lab& lab, Findings& findings);
@@ -30,10 +33,14 @@ void photons_are_found_once(const Lab& lab, Findings& findings);
 void sums_never_stall(const Lab& lab, Findings& findings);
 // degenerate.cpp: 26
 void degenerate_triangles_do_no_harm(const Lab& lab, Findings& findings);
+// coplanar.cpp: 27
+void coplanar_faces_do_no_harm(const Lab& lab, Findings& findings);
 // traversal.cpp: 28
 void traversal_misses_nothing(const Lab& lab, Findings& findings);
 // quadrics.cpp: 29
 void spheres_stay_round(const Lab& lab, Findings& findings);
+// many_lights.cpp: 38
+void lights_add_up(const Lab& lab, Findings& findings);
 
 // Parts of these in one way to build the traversal, for tests that try them all, and whether all
 // ways give the same bits.

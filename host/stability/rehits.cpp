@@ -84,7 +84,7 @@ void measure_rehits(const Lab& lab, Findings& findings, const std::string& name,
   const std::size_t wanted = lab.count(1000008) / 9;
   while (result.rays < wanted)
     spawn_batch(traced, random, std::min<std::size_t>(wanted - result.rays, 1000000), result);
-  findings.none("re-hits per 1e6, " + name, result.again);
+  findings.none("re-hits of " + std::to_string(result.rays) + " rays, " + name, result.again);
   findings.none("counters of errors, " + name, traced.errors());
   // No more than rounding asks for.
   findings.at_most("lift in roundoffs of the largest coordinate, " + name,

@@ -111,4 +111,35 @@ Scene scaled(Scene scene, int k) {
   return scene;
 }
 
+void transform_points(Scene& scene, const glm::dvec3& scale, const glm::dvec3& move) {
+  const auto point = [&](const glm::dvec3& p) { return p * scale + move; };
+  const bool mirrored = scale.x * scale.y * scale.z < 0;
+  for (Shape& shape : scene.shapes) {
+    if (Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
+      for (glm::vec3& p : mesh->positions) p = point(p);
+      for (glm::vec3& n : mesh->normals) n *= glm::vec3(scale);
+      if (mirrored)
+        for (glm::uvec3& t : mesh->triangles) std::swap(t.y, t.z);
+    } else if (Sphere* sphere = std::get_if<Sphere>(&shape.geometry)) {
+      sphere->center = point(sphere->center);
+    } else {
+      Disk& disk = std::get<Disk>(shape.geometry);
+      disk.center = point(disk.center);
+      disk.normal *= scale;
+    }
+  }
+  for (Light& light : scene.lights)
+    if (PointLight* lamp = std::get_if<PointLight>(&light)) {
+      lamp->position = point(lamp->position);
+    } else if (SpotLight* spot = std::get_if<SpotLight>(&light)) {
+      spot->position = point(spot->position);
+      spot->direction *= scale;
+    } else if (DirectionalLight* sun = std::get_if<DirectionalLight>(&light)) {
+      sun->direction *= scale;
+    }
+  Camera& c = scene.camera;
+  c.origin = point(c.origin);
+  for (glm::dvec3* d : {&c.right, &c.up, &c.forward}) *d *= scale;
+}
+
 }  // namespace pellucid::stability

@@ -52,4 +52,7 @@ Scene pane_scene(Scene slab);
 /// irradiance stay.
 Scene scaled(Scene scene, int k);
 
+/// Mirrors at the axes of which `scale` is -1, then moves.
+void transform_points(Scene& scene, const glm::dvec3& scale, const glm::dvec3& move);
+
 }  // namespace pellucid::stability

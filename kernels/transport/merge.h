@@ -21,8 +21,8 @@ INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE c
   real3 ng = eye->v.surface.ng, wi = load3(photon.wi_dVCM);
   real3 photon_ng = REAL3(photon.ng_x, photon.ng_y, photon.ng_z);
   if (dot3(ng, photon_ng) < (real)MERGE_COS_MIN) return 0;
-  // On a round sheet, light that grazes one side lies behind the tangent plane of a point beside it:
-  // it stays on the side that it came to.
+  // On a round sheet, light that grazes one side lies behind the tangent plane of a point beside
+  // it: it stays on the side that it came to.
   real cos_g = dot3(ng, wi);
   if (!(cos_g * dot3(photon_ng, wi) > REAL(0.0))) return 0;
   real cos_wi;

@@ -1,9 +1,11 @@
 // Every case of the stability suite, and the suite itself.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "scene/load.h"
@@ -25,20 +27,26 @@ Lab test_lab() {
           }};
 }
 
-class Stability : public testing::TestWithParam<Case> {};
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  for (const Case& c : cases()) all.push_back(c.name);
+  return all;
+}
+
+class Stability : public testing::TestWithParam<std::string> {};
 
 TEST_P(Stability, holds) {
-  const Result result = run_case(GetParam(), test_lab());
+  const auto named = [&](const Case& c) { return c.name == GetParam(); };
+  const Result result = run_case(*std::find_if(cases().begin(), cases().end(), named), test_lab());
   Findings findings;
   findings.checks = result.checks;
   if (result.verdict != Verdict::not_applicable) expect_all(findings);
   EXPECT_NE(result.verdict, Verdict::fail) << result.note;
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Stability, testing::ValuesIn(cases()), [](const auto& test) {
-  std::string name = test.param.name;
-  for (char& c : name)
-    if (c == '-') c = '_';
+INSTANTIATE_TEST_SUITE_P(Cases, Stability, testing::ValuesIn(names()), [](const auto& test) {
+  std::string name = test.param;
+  std::replace(name.begin(), name.end(), '-', '_');
   return name;
 });
 
@@ -70,9 +78,8 @@ TEST(StabilitySuite, judges) {
   EXPECT_EQ(beyond.verdict, Verdict::fail);
   ASSERT_NE(beyond.worst(), nullptr);
   EXPECT_EQ(beyond.worst()->what, "beyond");
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto not_a_number = [](const Lab&, Findings& f) { f.at_most("nan", std::nan(""), 1); };
-  EXPECT_EQ(run(not_a_number).verdict, Verdict::fail) << nan;
+  EXPECT_EQ(run(not_a_number).verdict, Verdict::fail);
   const Result thrown = run([](const Lab&, Findings&) { throw NumericError("3 nonfinite"); });
   EXPECT_EQ(thrown.verdict, Verdict::fail);
   EXPECT_EQ(thrown.note, "3 nonfinite");
