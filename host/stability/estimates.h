@@ -13,6 +13,7 @@ namespace pellucid::stability {
 constexpr double usual_resolution = 0.015;
 
 /// Relative error within noise and `slack`, which is for what is not noise: rounding, footprints.
+/// Fails, too, where noise exceeds `resolution` (over the root of the effort).
 void compare(const Lab& lab, Findings& findings, const std::string& what, const Estimate& e,
              double expected, double slack, double resolution = usual_resolution);
 

@@ -81,24 +81,6 @@ void shoot_edges(const Lab& lab, Findings& findings, const Closed& closed, doubl
   findings.none(std::string("counters of errors, ") + closed.name, traced.errors());
 }
 
-/// A grey lump without holes, under a sky and a sun, seen from within: exactly black.
-void render_light_tight_box(const Lab& lab, Findings& findings) {
-  Scene scene = empty_scene(0.9);
-  add_shape(scene, lump(5000));
-  scene.lights.push_back(ConstantEnvironment{Rgb(1e6)});
-  DirectionalLight sun;
-  sun.irradiance = Rgb(1e6);
-  scene.lights.push_back(sun);
-  scene.camera.fov = 90;
-  for (const Integrator& method : integrators()) {
-    Renderer renderer(lab, scene, {method.name, 16, 16});
-    std::uint64_t lit = 0;
-    for (const auto& pixel : renderer.render({lab.count(16), 1, 8, MIS_BALANCE}).pixels)
-      lit += pixel[0].mean != 0;
-    findings.none("lit pixels in a closed box, " + method.name, lit);
-  }
-}
-
 }  // namespace
 
 void aimed_rays_hit(const Lab& lab, Findings& findings, const RayConfig& config) {
@@ -108,7 +90,14 @@ void aimed_rays_hit(const Lab& lab, Findings& findings, const RayConfig& config)
 void closed_meshes_are_tight(const Lab& lab, Findings& findings) {
   for (const Closed& closed : {sphere(), knot()})
     for (double distance : {0.0, 10.0, 1e3, 1e5}) shoot_edges(lab, findings, closed, distance, {});
-  render_light_tight_box(lab, findings);
+  const Scene box = light_tight_box();
+  for (const Integrator& method : integrators()) {
+    Renderer renderer(lab, box, {method.name, 16, 16});
+    std::uint64_t lit = 0;
+    for (const auto& pixel : renderer.render({lab.count(16), 1, 8, MIS_BALANCE}).pixels)
+      lit += pixel[0].mean != 0;
+    findings.none("lit pixels in a closed box, " + method.name, lit);
+  }
 }
 
 }  // namespace pellucid::stability

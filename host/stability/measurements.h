@@ -18,6 +18,10 @@ void panes_let_through_what_they_must(const Lab& lab, Findings& findings);
 void long_paths_lose_nothing(const Lab& lab, Findings& findings);
 // all_scenes.cpp: 4
 void nothing_is_dropped(const Lab& lab, Findings& findings);
+// float_modes.cpp: 5
+void relaxed_modes_keep_the_picture(const Lab& lab, Findings& findings);
+// shading_normals.cpp: 8
+void shading_normals_are_symmetric(const Lab& lab, Findings& findings);
 // rigid.cpp: 9, 31
 void far_away_is_as_near(const Lab& lab, Findings& findings);
 void mirrored_is_the_same(const Lab& lab, Findings& findings);
@@ -25,12 +29,18 @@ void mirrored_is_the_same(const Lab& lab, Findings& findings);
 void scale_changes_no_bit(const Lab& lab, Findings& findings);
 void short_buffers_drop_nothing(const Lab& lab, Findings& findings);
 void work_groups_change_no_bit(const Lab& lab, Findings& findings);
+// fireflies.cpp: 14
+void near_vertices_make_no_fireflies(const Lab& lab, Findings& findings);
 // thin_walls.cpp: 16
 void merging_stays_on_its_side(const Lab& lab, Findings& findings);
+// merge_radius.cpp: 17
+void radius_shrinks_by_its_law(const Lab& lab, Findings& findings);
 // photon_cloud.cpp: 18
 void photons_are_found_once(const Lab& lab, Findings& findings);
 // film_sums.cpp: 21
 void sums_never_stall(const Lab& lab, Findings& findings);
+// noise.cpp: 23
+void noise_is_independent(const Lab& lab, Findings& findings);
 // degenerate.cpp: 26
 void degenerate_triangles_do_no_harm(const Lab& lab, Findings& findings);
 // coplanar.cpp: 27

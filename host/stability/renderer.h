@@ -35,6 +35,7 @@ struct Build {
   uint slice_rows = 0;  ///< 0: as planned
   std::optional<std::uint64_t> growth =
       {};  ///< most bytes of the device beyond what is planned at first
+  FloatMode float_mode = FloatMode::strict;
 };
 
 /// Mean and variance of that mean.

@@ -39,6 +39,17 @@ Mesh lump(int triangles, const glm::dvec3& center) {
   return baked(generate(shape), center);
 }
 
+Scene light_tight_box() {
+  Scene scene = empty_scene(0.9);
+  add_shape(scene, lump(5000));
+  scene.lights.push_back(ConstantEnvironment{Rgb(1e6)});
+  DirectionalLight sun;
+  sun.irradiance = Rgb(1e6);
+  scene.lights.push_back(sun);
+  scene.camera.fov = 90;
+  return scene;
+}
+
 Mesh soup(Random& random, int triangles, double half, double size) {
   RawMesh raw;
   for (unsigned i = 0; i < unsigned(triangles); ++i) {
