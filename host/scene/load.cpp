@@ -12,6 +12,7 @@
 #include "scene/coplanar.h"
 #include "scene/distance.h"
 #include "scene/model.h"
+#include "scene/needles.h"
 #include "scene/overrides.h"
 #include "scene/parse.h"
 #include "scene/text_file.h"
@@ -80,7 +81,7 @@ void finish_warnings(SceneBuilder& builder) {
                    std::any_of(scene.shapes.begin(), scene.shapes.end(),
                                [](const Shape& shape) { return shape.emission.has_value(); });
   if (!lit) scene.warnings.push_back("the scene has no light: the picture will be black");
-  for (const auto warning : {distance_warning, coplanar_warning})
+  for (const auto warning : {distance_warning, coplanar_warning, needle_warning})
     if (std::string text = warning(scene); !text.empty()) scene.warnings.push_back(std::move(text));
 }
 

@@ -20,6 +20,10 @@ void long_paths_lose_nothing(const Lab& lab, Findings& findings);
 void nothing_is_dropped(const Lab& lab, Findings& findings);
 // float_modes.cpp: 5
 void relaxed_modes_keep_the_picture(const Lab& lab, Findings& findings);
+// strategies.cpp: 6
+void strategies_agree(const Lab& lab, Findings& findings);
+// wild_weights.cpp: 7
+void weights_stay_in_range(const Lab& lab, Findings& findings);
 // shading_normals.cpp: 8
 void shading_normals_are_symmetric(const Lab& lab, Findings& findings);
 // rigid.cpp: 9, 31
@@ -37,6 +41,8 @@ void merging_stays_on_its_side(const Lab& lab, Findings& findings);
 void radius_shrinks_by_its_law(const Lab& lab, Findings& findings);
 // photon_cloud.cpp: 18
 void photons_are_found_once(const Lab& lab, Findings& findings);
+// splats.cpp: 20
+void splats_fall_where_rays_come_from(const Lab& lab, Findings& findings);
 // film_sums.cpp: 21
 void sums_never_stall(const Lab& lab, Findings& findings);
 // noise.cpp: 23
@@ -49,6 +55,10 @@ void coplanar_faces_do_no_harm(const Lab& lab, Findings& findings);
 void traversal_misses_nothing(const Lab& lab, Findings& findings);
 // quadrics.cpp: 29
 void spheres_stay_round(const Lab& lab, Findings& findings);
+// extreme_cameras.cpp: 35
+void cameras_keep_their_rays(const Lab& lab, Findings& findings);
+// image_files.cpp: 36
+void files_keep_values(const Lab& lab, Findings& findings);
 // many_lights.cpp: 38
 void lights_add_up(const Lab& lab, Findings& findings);
 

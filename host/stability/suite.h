@@ -45,6 +45,8 @@ struct Case {
 
 /// The table, by number.
 const std::vector<Case>& cases();
+/// Numbers of the catalogue that it has no case for yet.
+std::vector<int> missing_cases();
 
 enum class Verdict { pass, warned, not_applicable, fail };
 const char* verdict_name(Verdict verdict);

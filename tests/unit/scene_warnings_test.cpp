@@ -1,5 +1,5 @@
-// Warnings of what makes pictures depend on rounding: lights that lie on a surface, and scenes far
-// from the origin.
+// Warnings of what makes pictures depend on rounding: lights that lie on a surface, scenes far from
+// the origin, and needles.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -7,6 +7,7 @@
 #include "scene/coplanar.h"
 #include "scene/distance.h"
 #include "scene/mesh_tools.h"
+#include "scene/needles.h"
 #include "scene_test_support.h"
 
 namespace pellucid {
@@ -83,6 +84,19 @@ TEST(SceneWarnings, FarAwayIsToldWithItsError) {
   EXPECT_EQ(distance_warning(at(2e4)), "");
   EXPECT_NE(distance_warning(at(2e6)).find("0.12"), std::string::npos) << distance_warning(at(2e6));
   EXPECT_EQ(distance_warning(Scene()), "") << "nothing there";
+}
+
+TEST(SceneWarnings, NeedlesAreCounted) {
+  const auto with_width = [](float width) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, width, 0}, {1, 1, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 1, 3}};
+    Scene scene;
+    scene.shapes.push_back(shape_of(mesh));
+    return needle_warning(scene);
+  };
+  EXPECT_EQ(with_width(1e-4f), "");
+  EXPECT_NE(with_width(1e-5f).find("has 1 triangles"), std::string::npos) << with_width(1e-5f);
 }
 
 }  // namespace
