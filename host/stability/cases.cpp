@@ -20,7 +20,7 @@ const Case table[] = {
      light_through_glass_is_found_or_told, ""},
     {4, "not-a-number", "NaN and infinity, and the bias of hiding them", "all",
      "one bad sample ruins a pixel, or is replaced in silence", nothing_is_dropped, ""},
-    {5, "float-modes", "relaxed arithmetic", "path, vcm",
+    {5, "float-modes", "relaxed arithmetic", "path, bdpt",
      "88.5 % wrong pixels for 7 % of speed (LuxMark 3 on ROCm)", relaxed_modes_keep_the_picture,
      ""},
     {6, "densities", "densities that disagree with what is sampled", "bdpt",
