@@ -81,7 +81,8 @@ void measure_rehits(const Lab& lab, Findings& findings, const std::string& name,
   TracedScene traced(lab, scene);
   Random random(7);
   Spawned result;
-  const std::size_t wanted = lab.count(1000008) / 9;
+  // 1e8 in all, as the catalogue asks for, at an effort of 10.
+  const std::size_t wanted = lab.count(1000008) * std::size_t(std::min(lab.effort, 10.0)) / 9;
   while (result.rays < wanted)
     spawn_batch(traced, random, std::min<std::size_t>(wanted - result.rays, 1000000), result);
   findings.none("re-hits of " + std::to_string(result.rays) + " rays, " + name, result.again);
@@ -256,8 +257,8 @@ void spawned_rays_leave(const Lab& lab, Findings& findings) {
   TracedScene planes(lab, facing_planes(facing[0], 1, 1, 1));
   for (const Facing& f : facing) {
     double worst = 0;
-    for (double P : {0.1, 1e3, 1e6})
-      for (double cell : {1e-3, 0.3})
+    for (double P : {0.1, 1.0, 1e3, 1e6})
+      for (double cell : {1e-3, 0.03, 0.3})
         worst = std::max(worst, smallest_gap(planes, lab.count(3000), f, P, cell));
     findings.at_most(std::string("g_min in ulp(P), ") + f.name, worst, 64);
   }
