@@ -16,6 +16,7 @@
 #include "scene/overrides.h"
 #include "scene/parse.h"
 #include "scene/text_file.h"
+#include "scene/thin_glass.h"
 
 namespace pellucid {
 namespace {
@@ -81,7 +82,8 @@ void finish_warnings(SceneBuilder& builder) {
                    std::any_of(scene.shapes.begin(), scene.shapes.end(),
                                [](const Shape& shape) { return shape.emission.has_value(); });
   if (!lit) scene.warnings.push_back("the scene has no light: the picture will be black");
-  for (const auto warning : {distance_warning, coplanar_warning, needle_warning})
+  for (const auto warning :
+       {distance_warning, coplanar_warning, needle_warning, thin_glass_warning})
     if (std::string text = warning(scene); !text.empty()) scene.warnings.push_back(std::move(text));
 }
 

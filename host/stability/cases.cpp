@@ -47,6 +47,8 @@ const Case table[] = {
     {14, "fireflies", "vertices that almost coincide", "nee, path, bdpt, vcm",
      "a pixel 80000 times the median beside a lamp without size", near_vertices_make_no_fireflies,
      ""},
+    {15, "thin-glass", "glass thinner than what keeps rays off surfaces", "path, bdpt, vcm",
+     "shells 4e-5 apart vanish", thin_panes_let_light_through, ""},
     {16, "thin-walls", "photons round corners and through walls", "sppm, bpm, vcm",
      "discs gather on the other side of a wall", merging_stays_on_its_side, ""},
     {17, "merge-radius", "scale, schedule and floor of the radius", "sppm, bpm, vcm",

@@ -35,6 +35,8 @@ void short_buffers_drop_nothing(const Lab& lab, Findings& findings);
 void work_groups_change_no_bit(const Lab& lab, Findings& findings);
 // fireflies.cpp: 14
 void near_vertices_make_no_fireflies(const Lab& lab, Findings& findings);
+// thin_glass.cpp: 15
+void thin_panes_let_light_through(const Lab& lab, Findings& findings);
 // thin_walls.cpp: 16
 void merging_stays_on_its_side(const Lab& lab, Findings& findings);
 // merge_radius.cpp: 17

@@ -8,6 +8,7 @@
 #include "scene/distance.h"
 #include "scene/mesh_tools.h"
 #include "scene/needles.h"
+#include "scene/thin_glass.h"
 #include "scene_test_support.h"
 
 namespace pellucid {
@@ -84,6 +85,21 @@ TEST(SceneWarnings, FarAwayIsToldWithItsError) {
   EXPECT_EQ(distance_warning(at(2e4)), "");
   EXPECT_NE(distance_warning(at(2e6)).find("0.12"), std::string::npos) << distance_warning(at(2e6));
   EXPECT_EQ(distance_warning(Scene()), "") << "nothing there";
+}
+
+TEST(SceneWarnings, ThinGlassIsMeasured) {
+  const auto pane = [](double thickness, MaterialKind kind) {
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.materials[0].kind = kind;
+    const BakedMesh box = bake_mesh(make_cube({0, 0, 0}, {4, thickness, 4}), {}, false);
+    scene.shapes.push_back(shape_of(box.mesh));
+    return thin_glass_warning(scene);
+  };
+  EXPECT_EQ(pane(1e-4, MaterialKind::dielectric), "");
+  EXPECT_NE(pane(1e-6, MaterialKind::dielectric).find("1e-06 thick"), std::string::npos)
+      << pane(1e-6, MaterialKind::dielectric);
+  EXPECT_EQ(pane(1e-6, MaterialKind::diffuse), "") << "no glass";
 }
 
 TEST(SceneWarnings, NeedlesAreCounted) {
