@@ -19,6 +19,7 @@ namespace pellucid::stability {
 void nothing_is_dropped(const Lab& lab, Findings& findings) {
   std::vector<const char*> names{"everything", "materials",     "veach-mis",
                                  "pool",       "glass-caustic", "mirror-caustic"};
+  const int side = lab.effort > 1 ? 32 : 16;
   if (lab.effort > 1) names.insert(names.end(), {"glass-lamp", "keyhole", "four-balls-sun"});
   std::vector<Scene> scenes;
   for (const char* name : names) scenes.push_back(lab.open_scene(name));
@@ -28,7 +29,7 @@ void nothing_is_dropped(const Lab& lab, Findings& findings) {
     for (const Scene& scene : scenes) {
       try {
         const Sampling run{lab.count(16), 3, long_enough, MIS_BALANCE};
-        for (const auto& pixel : Renderer(lab, scene, {method.name, 16, 16}).render(run).pixels)
+        for (const auto& pixel : Renderer(lab, scene, {method.name, side, side}).render(run).pixels)
           for (const Estimate& e : pixel) odd += !(std::isfinite(e.mean) && e.mean >= 0);
       } catch (const NumericError& e) {
         ++errors;
