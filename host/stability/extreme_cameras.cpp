@@ -38,9 +38,8 @@ double worst_pixel(const Lab& lab, double fov) {
   options.plan.kernel_dir = lab.kernel_dir;
   std::vector<Counter> counters = make_counters();
   std::map<std::string, std::vector<float>> aov;
-  for (const AovChannel& channel :
-       render_aovs(lab.device, packed, {"P"}, options, counters).value())
-    aov[channel.name] = channel.data;
+  const auto channels = render_aovs(lab.device, packed, {"P"}, options, counters);
+  for (const AovChannel& channel : *channels) aov[channel.name] = channel.data;
   double worst = 0;
   const double pixel = 2 * half / size;
   for (int y = 0; y < size; ++y)
