@@ -10,6 +10,7 @@
 #include "apps/bench_gate.h"
 #include "apps/bench_render.h"
 #include "apps/bench_report.h"
+#include "apps/bench_stability.h"
 #include "apps/command.h"
 #include "apps/common.h"
 #include "apps/device_input.h"
@@ -26,7 +27,7 @@ namespace {
 
 struct BenchCommand {
   std::string only = "rays", baseline, fail_slower = "10%", kernel_dir;
-  std::vector<std::string> scenes_asked;
+  std::vector<std::string> scenes_asked, cases_asked;
   DeviceFlags device;
   std::optional<int> repeats;  ///< absent: as the workload likes
 
@@ -37,6 +38,7 @@ struct BenchCommand {
   ExitCode run_sampler(const CommonOptions& common) const;
   ExitCode run_renders(const CommonOptions& common) const;
   ExitCode run_sorts(const CommonOptions& common) const;
+  ExitCode run_hard_cases(const CommonOptions& common) const;
   ExitCode judge(const std::vector<std::string>& worse) const;
 };
 
@@ -110,17 +112,32 @@ ExitCode BenchCommand::run_sorts(const CommonOptions& common) const {
   return ExitCode::done;
 }
 
+ExitCode BenchCommand::run_hard_cases(const CommonOptions& common) const {
+  const std::vector<const stability::Case*> cases = choose_cases(cases_asked);
+  const stability::Lab lab{device.open(), kernel_dir, double(repeats.value_or(1)),
+                           [](const std::string& name) { return open_scene(name); }};
+  const nlohmann::json document = run_stability(cases, lab);
+  if (common.wants_text()) print_result(stability_text(document));
+  write_json(common.json, document);
+  for (const nlohmann::json& one : document["cases"])
+    if (one["verdict"] == "fail") return ExitCode::gate_failed;
+  return ExitCode::done;
+}
+
 ExitCode BenchCommand::run(const CommonOptions& common) const {
-  const std::vector<std::string> workloads{"rays", "render", "sampler", "sort"};
+  const std::vector<std::string> workloads{"rays", "render", "sampler", "sort", "stability"};
   if (std::find(workloads.begin(), workloads.end(), only) == workloads.end())
     throw UsageError("--only: there is no workload '" + only + "'; there are " + join(workloads) +
                      "." + did_you_mean(only, workloads));
-  if (!scenes_asked.empty() && only == "rays")
+  if (!scenes_asked.empty() && only != "render" && only != "sampler")
     throw UsageError("--scene is for --only render and --only sampler");
+  if (!cases_asked.empty() && only != "stability")
+    throw UsageError("--case is for --only stability");
   if (!baseline.empty() && only != "rays" && only != "render")
     throw UsageError("--baseline is for --only rays and --only render");
   if (only == "rays") return run_rays(common);
   if (only == "sort") return run_sorts(common);
+  if (only == "stability") return run_hard_cases(common);
   return only == "render" ? run_renders(common) : run_sampler(common);
 }
 
@@ -132,16 +149,21 @@ CommandRun setup_bench(CLI::App& app) {
                  "which workload: rays (default); render: every method on "
                  "scenes of every hard kind; "
                  "sampler: what Sobol points are worth; sort: the photon grid beside sorts by the "
-                 "host")
-      ->type_name("rays|render|sampler|sort");
+                 "host; stability: hard cases, each held to its bound")
+      ->type_name("rays|render|sampler|sort|stability");
   app.add_option("--scene", c->scenes_asked,
                  "with --only render or sampler: this scene instead of the workload's; repeatable")
       ->type_name("SCENE")
       ->allow_extra_args(false);
+  app.add_option("--case", c->cases_asked,
+                 "with --only stability: this case alone, by name or number; repeatable")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   c->device.declare(app);
   c->device.declare_threads(app);
   app.add_option("--repeats", c->repeats,
-                 "runs of each cell; for render and sampler, seeds (default 7; of render 5)")
+                 "runs of each cell; for render and sampler, seeds (default 7; of render 5); for "
+                 "stability, as many times the rays and samples (default 1)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--kernel-dir", c->kernel_dir, "read kernels from this folder")->type_name("DIR");
   app.add_option("--baseline", c->baseline, "an earlier --json result to compare with")
@@ -151,7 +173,8 @@ CommandRun setup_bench(CLI::App& app) {
          "exit 1 if anything is slower than the baseline by more (default 10%); with --only "
          "render also if an error grew beyond chance")
       ->type_name("FRACTION");
-  app.footer(render_bench_help() + "\n\nExample: pellucid bench --only rays --json rays.json");
+  app.footer(render_bench_help() + "\n\n" + stability_help() +
+             "\n\nExample: pellucid bench --only rays --json rays.json");
   return [c](const CommonOptions& common) { return c->run(common); };
 }
 

@@ -8,13 +8,20 @@
 namespace pellucid {
 
 RayTracer::RayTracer(Device device, const PackedScene& scene, const PlanOptions& options)
-    : device_(std::move(device)), group_(options.group), info_(scene.info), camera_(scene.camera) {
+    : device_(std::move(device)), options_(options) {
+  set_scene(scene);
+}
+
+void RayTracer::set_scene(const PackedScene& scene) {
+  info_ = scene.info, camera_ = scene.camera;
   buffers_ = upload_scene(device_, scene);
   buffers_["diag"] = device_.create_buffer("diag", DIAG_COUNT * sizeof(uint));
-  const Specialisation special = specialise(scene, {}, device_.info(), options);
-  const KernelFiles files(options.kernel_dir);
+  const Specialisation special = specialise(scene, {}, device_.info(), options_);
+  if (prelude_of(special) == prelude_) return;
+  prelude_ = prelude_of(special);
+  const KernelFiles files(options_.kernel_dir);
   const auto build = [&](const std::string& name) {
-    return device_.build(name, files.expand("passes/" + name + ".cl", prelude_of(special)),
+    return device_.build(name, files.expand("passes/" + name + ".cl", prelude_),
                          options_of(special));
   };
   closest_ = build("trace_closest");
@@ -37,7 +44,7 @@ void RayTracer::set_rays(const std::vector<TraceRay>& rays) {
   buffers_["hits"] = device_.create_buffer("hits", rays.size() * sizeof(TraceHit));
   for (Kernel* kernel : {&closest_, &any_}) {
     bind(*kernel);
-    device_.launch(*kernel, count_, group_for(*kernel, group_),
+    device_.launch(*kernel, count_, group_for(*kernel, options_.group),
                    nullptr);  // code generation happens here
   }
   device_.finish();
@@ -46,7 +53,7 @@ void RayTracer::set_rays(const std::vector<TraceRay>& rays) {
 double RayTracer::trace(bool any) {
   const Timer timer;
   const Kernel& kernel = any ? any_ : closest_;
-  device_.launch(kernel, count_, group_for(kernel, group_), nullptr);
+  device_.launch(kernel, count_, group_for(kernel, options_.group), nullptr);
   device_.finish();
   return timer.seconds();
 }

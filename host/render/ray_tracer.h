@@ -26,6 +26,9 @@ class RayTracer {
   /// Uploads the scene and builds both kernels, code generation included. Throws DeviceError.
   RayTracer(Device device, const PackedScene& scene, const PlanOptions& options);
 
+  /// Goes on with another scene; kernels are built anew only if it needs others.
+  void set_scene(const PackedScene& scene);
+
   /// Puts rays on the device for trace().
   void set_rays(const std::vector<TraceRay>& rays);
 
@@ -41,9 +44,10 @@ class RayTracer {
   void bind(Kernel& kernel);
 
   Device device_;
-  std::size_t group_;
-  SceneInfo info_;
-  ::Camera camera_;
+  PlanOptions options_;
+  SceneInfo info_{};
+  ::Camera camera_{};
+  std::string prelude_;  ///< of the kernels
   std::map<std::string, Buffer> buffers_;
   Kernel closest_, any_;
   uint count_ = 0;

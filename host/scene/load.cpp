@@ -9,10 +9,14 @@
 
 #include "base/error.h"
 #include "scene/bare_model.h"
+#include "scene/coplanar.h"
+#include "scene/distance.h"
 #include "scene/model.h"
+#include "scene/needles.h"
 #include "scene/overrides.h"
 #include "scene/parse.h"
 #include "scene/text_file.h"
+#include "scene/thin_glass.h"
 
 namespace pellucid {
 namespace {
@@ -78,6 +82,9 @@ void finish_warnings(SceneBuilder& builder) {
                    std::any_of(scene.shapes.begin(), scene.shapes.end(),
                                [](const Shape& shape) { return shape.emission.has_value(); });
   if (!lit) scene.warnings.push_back("the scene has no light: the picture will be black");
+  for (const auto warning :
+       {distance_warning, coplanar_warning, needle_warning, thin_glass_warning})
+    if (std::string text = warning(scene); !text.empty()) scene.warnings.push_back(std::move(text));
 }
 
 /// The document of a scene or of a bare model, with what the command line changes.

@@ -19,13 +19,16 @@ typedef struct Merge {
 INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE const EndVertex* eye,
                         Photon photon, PRIVATE Merge* merge) {
   real3 ng = eye->v.surface.ng, wi = load3(photon.wi_dVCM);
-  if (dot3(ng, REAL3(photon.ng_x, photon.ng_y, photon.ng_z)) < (real)MERGE_COS_MIN) return 0;
+  real3 photon_ng = REAL3(photon.ng_x, photon.ng_y, photon.ng_z);
+  if (dot3(ng, photon_ng) < (real)MERGE_COS_MIN) return 0;
+  // On a round sheet, light that grazes one side lies behind the tangent plane of a point beside
+  // it: it stays on the side that it came to.
+  real cos_g = dot3(ng, wi);
+  if (!(cos_g * dot3(photon_ng, wi) > REAL(0.0))) return 0;
   real cos_wi;
   BsdfEval e = vertex_eval(scene, &eye->v, wi, &cos_wi);
   if (is_black(e.f)) return 0;
-  real cos_g = r_abs(dot3(ng, wi));
-  if (!(cos_g > REAL(0.0))) return 0;
-  real scale = cos_wi / cos_g * (real)launch.merge_scale;
+  real scale = cos_wi / r_abs(cos_g) * (real)launch.merge_scale;
   merge->value = eye->beta * e.f * load3(photon.beta_dVC) * scale;
   merge->weight = REAL(1.0);
 #if INTG_PARTIALS

@@ -80,6 +80,31 @@ def check_renders(baseline):
         check(code == 3 and what in err and "bench --only render" in err, "a baseline that is none", code, err)
 
 
+def check_stability():
+    """The suite of hard cases: the table, its JSON, and which cases there are."""
+    command = [PELLUCID, "bench", "--only", "stability"]
+
+    def stability(*arguments):
+        return subprocess.run([*command, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              timeout=500)
+
+    done = stability("--case", "accumulators", "--case", "32", "--json", "-")
+    check(done.returncode == 0, "exit code of the stability suite", done.stderr)
+    cases = json.loads(done.stdout)["cases"]
+    check([c["case"] for c in cases] == ["accumulators", "media"], "cases by name and number", cases)
+    check([c["verdict"] for c in cases] == ["pass", "not applicable"], "verdicts", cases)
+    check(cases[0]["measured"] <= cases[0]["bound"] and cases[0]["checks"], "a figure and its bound", cases)
+    check(cases[1]["measured"] is None and "no participating media" in cases[1]["note"], "why not", cases)
+    done = stability("--case", "21")
+    check(done.returncode == 0 and "21 accumulators" in done.stdout and "pass" in done.stdout, "as text", done.stdout)
+    for arguments, what in ((["--case", "media-"], "Did you mean 'media'"), (["--case", "99"], "there is no case '99'"),
+                            (["--scene", "furnace"], "--only render and"), (["--baseline", "x"], "--baseline")):
+        done = stability(*arguments)
+        check(done.returncode == 2 and what in done.stderr, what, done.stderr)
+    done = subprocess.run([PELLUCID, "bench", "--only", "rays", "--case", "media"], stderr=subprocess.PIPE, text=True)
+    check(done.returncode == 2 and "--only stability" in done.stderr, "--case", done.stderr)
+
+
 with tempfile.TemporaryDirectory() as folder:
     baseline = pathlib.Path(folder, "baseline.json")
     code, out, err = run("--json", "-")
@@ -138,6 +163,7 @@ with tempfile.TemporaryDirectory() as folder:
                   "ratios are of builds over sorts", cell)
         check(set(cell["pass_seconds"]) == {"grid_keys", "grid_count", "grid_scan", "grid_scatter",
                                             "grid_ranges"}, "all passes have times", cell)
+    check_stability()
     done = subprocess.run([PELLUCID, "bench", "--only", "rays", "--scene", "furnace"],
                           stderr=subprocess.PIPE, text=True)
     check(done.returncode == 2 and "--only render and" in done.stderr, "--scene", done.stderr)

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <random>
 
 #include "render/photon_grid.h"
 #include "shared/limits.h"
+#include "stability/photon_cloud.h"
 #include "support/kernel_folder.h"
 
 #define PELLUCID_REAL float
@@ -21,69 +21,7 @@ namespace twin {
 namespace pellucid {
 namespace {
 
-bool same(const U4& a, const U4& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
-}
-
-/// Photons, where to look for them, and the grid's own figures.
-struct Cloud {
-  std::vector<F4> photons, queries;
-  float radius = 1;
-  F4 origin{};
-};
-
-class Random {
- public:
-  float signed_unit() { return 2 * std::uniform_real_distribution<float>()(engine_) - 1; }
-  F4 in_box(const F4& center, float half) {
-    return {center.x + half * signed_unit(), center.y + half * signed_unit(),
-            center.z + half * signed_unit(), 0};
-  }
-  std::size_t below(std::size_t n) { return engine_() % n; }
-
- private:
-  std::mt19937 engine_{5};
-};
-
-/// n photons, in clumps so that there is something to find, in a box of half the given extent on
-/// each side of `center`; a third of the queries at photons, the others near them.
-Cloud cloud_of(std::size_t n, double extent_in_radii, float radius, const F4& center,
-               std::size_t queries = 10000) {
-  Random random;
-  Cloud cloud;
-  cloud.radius = radius, cloud.origin = center;
-  const auto half = float(0.5 * extent_in_radii * radius);
-  constexpr std::size_t clump = 8;
-  for (F4 at{}; cloud.photons.size() < n;) {
-    if (cloud.photons.size() % clump == 0) at = random.in_box(center, half);
-    cloud.photons.push_back(random.in_box(at, radius));
-  }
-  for (std::size_t k = 0; k < queries; ++k) {
-    const F4 at = n ? cloud.photons[random.below(n)] : center;
-    cloud.queries.push_back(k % 3 == 0 ? at : random.in_box(at, radius));
-  }
-  return cloud;
-}
-
-/// What is there by trying all photons for all queries, with the same test as kernels have.
-std::vector<U4> brute_force(const Cloud& cloud) {
-  const std::size_t n = cloud.photons.size();
-  std::vector<float> x(n), y(n), z(n);
-  for (std::size_t i = 0; i < n; ++i)
-    x[i] = cloud.photons[i].x, y[i] = cloud.photons[i].y, z[i] = cloud.photons[i].z;
-  const float radius2 = cloud.radius * cloud.radius;
-  std::vector<U4> found;
-  for (const F4& q : cloud.queries) {
-    U4 sums{};
-    for (uint i = 0; i < n; ++i) {
-      const float dx = x[i] - q.x, dy = y[i] - q.y, dz = z[i] - q.z;
-      const uint hit = dx * dx + dy * dy + dz * dz <= radius2;
-      sums.x += hit, sums.y += hit * i, sums.z += hit * i * i, sums.w += hit * i * i * i;
-    }
-    found.push_back(sums);
-  }
-  return found;
-}
+using namespace stability;
 
 PhotonGrid make_grid(std::size_t group = 0) {
   PlanOptions options;
@@ -176,7 +114,7 @@ TEST(GridTest, FlatClouds) {
 /// Photons and queries on a lattice of a quarter of the radius, where cells have their borders:
 /// many distances are exactly the radius, and others one bit beside it.
 TEST(GridTest, PhotonsAtExactlyTheRadius) {
-  Random random;
+  CloudRandom random;
   for (float radius : {0.25f, 0.1f}) {
     Cloud cloud;
     cloud.radius = radius;

@@ -12,7 +12,7 @@ import sys
 import tempfile
 
 PELLUCID, DEVICE_TESTS = map(os.path.abspath, sys.argv[1:3])
-EVERYTHING = str(pathlib.Path(__file__).parents[1] / "render/scenes/everything.json")
+EVERYTHING = str(pathlib.Path(__file__).parents[2] / "scenes/stability/everything.json")
 # Method and scene: together they hold every pass and most lobes and lights.
 RUNS = [("path", "gallery"), ("nee", "four-balls-sun"), ("reference", "four-balls-background"),
         ("naive", "cornell-box"), ("light", "cornell-box"), ("bdpt", "four-balls-background"),

@@ -21,8 +21,9 @@ HOST = {
     "render": {"base", "image", "cl", "pack", "scene", "bvh", "shared"},
     "integrators": {"base", "pack", "render", "shared"},
     "bench": {"base", "cl", "pack", "render", "scene", "bvh", "shared"},
+    "stability": {"base", "cl", "image", "integrators", "pack", "render", "scene", "shared"},
     "study": {"base", "cl", "image", "integrators", "pack", "render", "scene", "shared"},
-    "apps": {"base", "bench", "study", "explain", "image", "bvh", "cl", "scene", "pack", "render", "integrators", "shared"},
+    "apps": {"base", "bench", "stability", "study", "explain", "image", "bvh", "cl", "scene", "pack", "render", "integrators", "shared"},
 }
 _LOW = {"shared", "core", "geom"}
 KERNELS = {
@@ -42,7 +43,7 @@ LIBRARIES = {
     r"CL/(cl|opencl)": {"cl"},
     r"tiny_obj_loader": {"scene"},
     r"embree3/": {"bench"},
-    r"glm/": {"bvh", "scene", "pack"},
+    r"glm/": {"bvh", "scene", "pack", "stability"},
 }
 
 errors = []

@@ -6,8 +6,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include "closed_forms.h"
 #include "render_harness.h"
+#include "stability/closed_forms.h"
 
 namespace pellucid::test {
 namespace {
@@ -351,31 +351,6 @@ Case closed_form_case(const std::string& name) {
     return c;
   }
   throw std::runtime_error("there is no case " + name);
-}
-
-Scene pane_scene() {
-  Scene scene = scene_named("slab");
-  scene.materials.push_back(Material{});
-  scene.materials.back().reflectance = Rgb(0.5);
-  const auto paper = uint(scene.materials.size() - 1);
-  for (Shape& shape : scene.shapes) {
-    Mesh& mesh = std::get<Mesh>(shape.geometry);
-    if (shape.name == "pane") {  // 40 x 40 x 0.125 about z = -0.0625: now from z = 1 to 1.5
-      for (glm::vec3& p : mesh.positions) p.z = p.z < -0.1f ? 1.0f : 1.5f;
-    } else {
-      shape.emission.reset();
-      shape.material = paper;
-      for (glm::vec3& p : mesh.positions) p = {p.x * 0.04f, p.y * 0.04f, 0};  // 4 x 4
-    }
-  }
-  PointLight point;
-  point.position = {0, 0, 2};
-  point.intensity = Rgb(1.0);
-  scene.lights = {point};
-  scene.camera.origin = {0, 0, 0.75};
-  scene.camera.forward = {0, 0, -1};
-  scene.camera.fov = 90;
-  return scene;
 }
 
 }  // namespace pellucid::test

@@ -34,8 +34,4 @@ struct Case {
 const std::vector<std::string>& closed_form_names();
 Case closed_form_case(const std::string& name);
 
-/// CF10: a floor of reflectance 0.5 seen from below a pane from z = 1 to 1.5, index 1.5, which a
-/// point light of intensity 1 at z = 2 shines through.
-Scene pane_scene();
-
 }  // namespace pellucid::test

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "closed_form_cases.h"
-#include "closed_forms.h"
 #include "integrators/reach.h"
 #include "integrators/registry.h"
 #include "render_harness.h"
+#include "stability/closed_forms.h"
 
 namespace pellucid::test {
 namespace {

@@ -5,61 +5,18 @@
 #include <cmath>
 
 #include "render_harness.h"
+#include "stability/exact.h"
 
 namespace pellucid::test {
 namespace {
-
-const char* const methods[] = {"naive", "nee",  "path", "reference", "light",
-                               "bdpt",  "sppm", "bpm",  "vcm"};
-/// One for each set of passes, for what every method would be compiled anew for: `naive`, `nee` and
-/// `reference` are the pass of `path`, and trace rays and number work items by the same lines.
-const char* const one_per_pass[] = {"path", "light", "bdpt", "sppm", "vcm"};
-constexpr Sampling short_run{24, 7, {}, MIS_BALANCE};
 
 const Scene& everything() {
   static const Scene scene = scene_named("everything");
   return scene;
 }
 
-Build build_of(const char* method) {
-  Build b;
-  b.method = method;
-  b.width = b.height = 24;
-  b.sampler = Sampler::sobol;  // what the program does unless told otherwise
-  b.filter = PixelFilter::gaussian;
-  return b;
-}
-
 Film film_of(const Scene& scene, const Build& build) {
   return session_render(scene, build, short_run).film;
-}
-
-/// All lengths times 2^k: rounding commutes with powers of two. Intensities (W/sr) go with the
-/// square of a length; radiance and irradiance stay.
-Scene scaled(Scene scene, int k) {
-  const double f = std::ldexp(1.0, k);
-  scene.camera.origin *= f;
-  for (Shape& shape : scene.shapes) {
-    if (Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
-      for (glm::vec3& p : mesh->positions) p *= float(f);
-    } else if (Sphere* sphere = std::get_if<Sphere>(&shape.geometry)) {
-      sphere->center *= f;
-      sphere->radius *= f;
-    } else {
-      Disk& disk = std::get<Disk>(shape.geometry);
-      disk.center *= f;
-      disk.radius *= f;
-    }
-  }
-  for (Light& light : scene.lights)
-    if (PointLight* point = std::get_if<PointLight>(&light)) {
-      point->position *= f;
-      point->intensity *= f * f;
-    } else if (SpotLight* spot = std::get_if<SpotLight>(&light)) {
-      spot->position *= f;
-      spot->intensity *= f * f;
-    }
-  return scene;
 }
 
 TEST(Exact, twice_the_same) {
@@ -70,17 +27,6 @@ TEST(Exact, twice_the_same) {
     other.seed = 8;
     EXPECT_FALSE(same_film(film, session_render(everything(), build_of(m), other).film))
         << m << ": the seed must matter";
-  }
-}
-
-TEST(Exact, work_group_size) {
-  for (const char* m : one_per_pass) {
-    const auto film = film_of(everything(), build_of(m));
-    for (std::size_t group : {1, 8}) {
-      Build b = build_of(m);
-      b.group = group;
-      EXPECT_TRUE(same_film(film, film_of(everything(), b))) << m << ", groups of " << group;
-    }
   }
 }
 
@@ -123,17 +69,6 @@ TEST(Exact, width_of_the_tree) {
       const auto wider = film_of(everything(), b);
       EXPECT_TRUE(same_film(film, wider))
           << m << ", " << lanes << " lanes: " << different_pixels(film, wider) << " pixels";
-    }
-  }
-}
-
-TEST(Exact, scale_of_the_world) {
-  for (const char* m : methods) {
-    const auto film = film_of(everything(), build_of(m));
-    for (int k : {-33, -20, -8, 8, 20, 33}) {
-      const auto other = film_of(scaled(everything(), k), build_of(m));
-      EXPECT_TRUE(same_film(film, other))
-          << m << ", lengths times 2^" << k << ": " << different_pixels(film, other) << " pixels";
     }
   }
 }

@@ -187,38 +187,6 @@ TEST(LayersOf, vcm_has_the_strategies_of_bdpt) {
   }
 }
 
-// All strategies that can find all paths of a length have the same mean (numerics.md 7, the
-// unweighted pyramid). Seeds give the spread.
-TEST(LayersOf, unweighted_strategies_of_a_length_agree) {
-  constexpr int seeds = 12;
-  Scene scene = scene_named("cornell-box");
-  scene.settings.width = scene.settings.height = side;
-  const PackedScene packed = pack_scene(scene, {simd_width_for(test_device().info())});
-  const Integrator method = method_of("bdpt", LAYERS_TECH);
-  double level[4] = {}, sum[4][4] = {}, square[4][4] = {};  // of differences to s = 1
-  for (int seed = 0; seed < seeds; ++seed) {
-    Session session(test_device(), packed, method, options_for({0, 256}, std::uint64_t(seed)));
-    session.run({});
-    const Film& film = session.film();
-    for (uint depth : {2u, 3u}) {
-      const double nee = total(film, layer_of_unweighted(film.layers.set, 1, depth));
-      level[depth] += nee / seeds;
-      for (uint s = 0; s <= depth; ++s) {
-        const double d = total(film, layer_of_unweighted(film.layers.set, s, depth)) - nee;
-        sum[depth][s] += d, square[depth][s] += d * d;
-      }
-    }
-  }
-  for (const auto& [s, depth] : {std::pair{0u, 2u}, {2u, 2u}, {0u, 3u}, {2u, 3u}, {3u, 3u}}) {
-    const double mean = sum[depth][s] / seeds;
-    const double error = std::sqrt((square[depth][s] / seeds - mean * mean) / (seeds - 1));
-    std::printf("length %u: s = %u differs by %.2g +- %.2g from s = 1\n", depth, s,
-                mean / level[depth], error / level[depth]);
-    EXPECT_LT(std::abs(mean), 4.5 * error) << s << ", " << depth;
-    EXPECT_LT(4.5 * error, 0.05 * level[depth]) << s << ": too noisy to see an error";
-  }
-}
-
 // Walks do not know how long paths may become, so those of one length bring the same bits whether
 // longer ones are asked for or not, and none of these comes through if they are not.
 TEST(LayersOf, a_length_is_the_same_whatever_is_longer) {

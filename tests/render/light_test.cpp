@@ -7,9 +7,10 @@
 #include <cmath>
 
 #include "closed_form_cases.h"
-#include "closed_forms.h"
 #include "equality.h"
 #include "render_harness.h"
+#include "stability/closed_forms.h"
+#include "stability/small_scenes.h"
 #include "support/statistics.h"
 
 namespace pellucid::test {
@@ -134,7 +135,7 @@ TEST(Light, through_glass_is_seen_by_walks_from_the_light_alone) {
   EXPECT_NEAR(irradiance_below_pane(0, 2, 0.5, 1.5), 0.274195, 1e-6);
   constexpr int size = 16, runs = 32;
   constexpr double half = 0.75;  // of the picture on the floor
-  const Scene scene = pane_scene();
+  const Scene scene = pane_scene(scene_named("slab"));
   for (const char* method : from_light) {
     Build build{method, size, size};
     build.light_paths = 1 << 13;

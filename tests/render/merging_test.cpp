@@ -6,9 +6,9 @@
 #include <cstdio>
 
 #include "closed_form_cases.h"
-#include "closed_forms.h"
 #include "equality.h"
 #include "render_harness.h"
+#include "stability/closed_forms.h"
 #include "support/statistics.h"
 #include "support/test_scenes.h"
 
@@ -41,7 +41,7 @@ Runs runs_of(const Scene& scene, const Build& build, std::uint64_t spp, uint max
 constexpr double light_height = 2, pane = 0.5, ior = 1.5;
 
 Scene spot_pane_scene() {
-  Scene scene = pane_scene();
+  Scene scene = pane_scene(scene_named("slab"));
   SpotLight spot;
   spot.position = {0, 0, light_height};
   spot.direction = {0, 0, -1};

@@ -2,14 +2,14 @@
 # tests/CMakeLists.txt; PELLUCID_TIER=full narrows the verdicts from +-1.5 % to +-0.5 %.
 set(render_dir ${CMAKE_SOURCE_DIR}/tests/render)
 set(render_sources ${CMAKE_SOURCE_DIR}/tests/support/statistics.cpp)
-foreach(name render_harness closed_forms closed_form_cases closed_form_test equality equality_test
+foreach(name render_harness closed_form_cases closed_form_test equality equality_test
              error_test exact_test passes_test rigid_test texture_test golden_test filter_test aov_test layers_test
              light_test merging_test photons_test study_test vertices_test)
   list(APPEND render_sources ${render_dir}/${name}.cpp)
 endforeach()
 pellucid_gtest(render_tests render
   SOURCES ${render_sources}
-  DEPS pellucid_study pellucid_integrators pellucid_scene pellucid_image pellucid_test_support fmt::fmt)
+  DEPS pellucid_study pellucid_stability pellucid_integrators pellucid_scene pellucid_image pellucid_test_support fmt::fmt)
 target_include_directories(render_tests PRIVATE ${render_dir})
 
 pellucid_script_test(threads render ${render_dir}/threads_test.py $<TARGET_FILE:pellucid>)

@@ -1,19 +1,13 @@
-// Renders through the library, without the command line: a scene by name, a method, pictures with
-// means and variances. Every render asserts that the device counted no error.
+// The suite's renderer on the device under test, scenes by name, and verdicts on values.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "cl/device.h"
-#include "render/session.h"
-#include "scene/scene.h"
+#include "stability/renderer.h"
 
 namespace pellucid::test {
+
+using namespace pellucid::stability;
 
 /// Half width of the verdict: +-1.5 % in CI, +-0.5 % where PELLUCID_TIER=full (accuracy.md 4).
 double tier_tolerance();
@@ -21,102 +15,23 @@ double tier_tolerance();
 double tier_effort();
 
 /// The device under test; tests fail, never skip, where there is none.
-const Device& test_device();
+const Lab& test_lab();
+inline const Device& test_device() {
+  return test_lab().device;
+}
 
 /// By name from tests/render/scenes or the shipped ones.
 Scene scene_named(const std::string& name);
 
-/// What a kernel is built from and a scene is packed for.
-struct Build {
-  std::string method = "path";
-  int width = 32, height = 32;
-  bool specialised = false;  ///< false: kernels hold all effects, so that tests share programs
-  std::size_t group = 64;
-  bool simd_builtins = true;
-  int simd_width = 0;                 ///< 0: what the device prefers
-  Sampler sampler = Sampler::random;  ///< independent samples, as statistics want them
-  PixelFilter filter = PixelFilter::box;
-  uint light_paths = 0;  ///< of an iteration; 0: one per pixel
-  double radius = 0;     ///< of merging in the first pass; 0: by the scene
-  double radius_alpha = 0.75;
-  bool merge_first_only = false;
-  bool compact_vertices = false;
-  double vertices_per_path = 4;  ///< room at first
-  bool int64_atomics = true;
-  uint slice_rows = 0;  ///< 0: as planned
-  std::optional<std::uint64_t> growth =
-      {};  ///< most bytes of the device beyond what is planned at first
+struct Renderer : stability::Renderer {
+  Renderer(const Scene& scene, const Build& build)
+      : stability::Renderer(test_lab(), scene, build) {}
 };
 
-/// Mean and variance of that mean.
-struct Estimate {
-  double mean = 0, variance = 0;
-  double error() const;
-};
-
-struct Picture {
-  int width = 0, height = 0;
-  Film film;
-  std::vector<std::array<Estimate, 3>> pixels;  ///< out of film_image()
-
-  explicit Picture(Film accumulated);
-  Estimate image(int channel) const;
-  /// (sum x)^2 / sum x^2 over the samples of a block of pixels: how many of them matter.
-  double effective_samples(int channel, int x0, int y0, int block) const;
-  double block_mean(int channel, int x0, int y0, int block) const;
-};
-
-/// The same bits in every accumulator of every pixel.
-bool same_film(const Film& a, const Film& b);
-/// Pixels that differ in any accumulator.
-std::size_t different_pixels(const Film& a, const Film& b);
-
-/// As good as no limit, but for the one path in 10^7 that total reflection catches in a ball of
-/// glass, and that would be counted as an error after thousands of segments.
-constexpr uint long_enough = 1000;
-
-struct Sampling {
-  std::uint64_t spp = 64, seed = 1;
-  std::optional<uint> max_depth;
-  uint mis = MIS_BALANCE;
-};
-
-/// Means of the picture and of its pixels.
-struct Measured {
-  std::array<Estimate, 3> image;
-  std::vector<std::array<Estimate, 3>> pixels;
-};
-
-/// A method ready on a scene: kernels are built once, then any number of pictures are made.
-class Renderer {
- public:
-  Renderer(const Scene& scene, const Build& build);
-  Picture render(const Sampling& run);
-  /// Until an error estimate says that the error is below `target`, or run.spp.
-  std::pair<Picture, ErrorEstimate> render_to(double target, const Sampling& run);
-  /// Pixels of methods that splat share light paths, so there the spread of runs tells the error.
-  Measured measure(const Sampling& run);
-  /// spp for which the image's mean is known to `relative` (standard error) by a pilot of its own
-  /// seed; `most` bounds the answer, and a render that then is too noisy fails as inconclusive.
-  std::uint64_t spp_for(const Sampling& run, double relative, std::uint64_t most);
-  const PackedScene& packed() const { return packed_; }
-  const Plan& plan() const { return plan_; }
-
- private:
-  void check_counters();
-  Launch launch_for(const Sampling& run);
-  Film black_film(const Launch& launch);
-  /// Goes on to so many passes in all, and reads the film.
-  void advance(Film& film, Launch launch, std::uint64_t passes);
-
-  Build build_;
-  PackedScene packed_;
-  Plan plan_;
-};
-
-/// The same through a Session, as the program renders.
-Picture session_render(const Scene& scene, const Build& build, const Sampling& run,
-                       const RenderHooks& hooks = {});
+inline Picture session_render(const Scene& scene, const Build& build, const Sampling& run,
+                              const RenderHooks& hooks = {}) {
+  return stability::session_render(test_lab(), scene, build, run, hooks);
+}
 
 /// Verdict on a value known exactly: "" if the mean lies within 4.5 standard errors (plus `slack`,
 /// relative, for what is not noise) and that interval inside +-tier_tolerance() of `expected`; else

@@ -3,34 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "equality.h"
+#include "stability/small_scenes.h"
 
 namespace pellucid::test {
 namespace {
 
 constexpr int picture_size = 24, tile = 8, runs = 24;
 constexpr double alpha = 1e-4 / (2 * 2 * 3 * 2);  // Bonferroni over this file's images
-
-void transform_points(Scene& scene, const glm::dvec3& scale, const glm::dvec3& move) {
-  const auto point = [&](const glm::dvec3& p) { return p * scale + move; };
-  const bool mirrored = scale.x * scale.y * scale.z < 0;
-  for (Shape& shape : scene.shapes) {
-    if (Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
-      for (glm::vec3& p : mesh->positions) p = point(p);
-      for (glm::vec3& n : mesh->normals) n *= glm::vec3(scale);
-      if (mirrored)
-        for (glm::uvec3& t : mesh->triangles) std::swap(t.y, t.z);
-    } else if (Sphere* sphere = std::get_if<Sphere>(&shape.geometry)) {
-      sphere->center = point(sphere->center);
-    } else {
-      Disk& disk = std::get<Disk>(shape.geometry);
-      disk.center = point(disk.center);
-      disk.normal *= scale;
-    }
-  }
-  Camera& c = scene.camera;
-  c.origin = point(c.origin);
-  for (glm::dvec3* d : {&c.right, &c.up, &c.forward}) *d *= scale;
-}
 
 Runs collect(const Scene& scene, std::uint64_t seed) {
   Renderer renderer(scene, {"path", picture_size, picture_size});

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-SCENE = pathlib.Path(__file__).resolve().parent / "scenes" / "everything.json"
+SCENE = pathlib.Path(__file__).resolve().parents[2] / "scenes" / "stability" / "everything.json"
 
 
 def render(pellucid, method, threads, folder):

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
+#include "stability/quadrature.h"
 
 namespace pellucid::test {
 
@@ -48,9 +49,7 @@ struct Moments {
 /// Two-sided p-value of the mean against `expected`; `slack` is the error of `expected` itself.
 double z_test(const Moments& m, double expected, double slack);
 
-/// Integral over [x0,x1] x [y0,y1], adaptive Gauss-Legendre, absolute tolerance.
-double integrate(const std::function<double(double, double)>& f, double x0, double x1, double y0,
-                 double y1, double tolerance);
+using stability::integrate;
 
 /// Polar cells around an axis, finer near it: ring r = t/(1-t) in units of `width`, r =
 /// tan(angle/2)/width. Narrow lobes fill as many cells as wide ones.

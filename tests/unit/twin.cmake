@@ -9,14 +9,12 @@ set(twin_flags $<$<BOOL:${PELLUCID_HAS_MARCH_NATIVE}>:-march=native>)
 
 add_library(pellucid_test_support STATIC
   ${support_dir}/audit_scenes.cpp
-  ${support_dir}/brute_force.cpp
   ${support_dir}/bsdf_cases.cpp
   ${support_dir}/double_twin.cpp
-  ${support_dir}/statistics.cpp
-  ${support_dir}/test_scenes.cpp)
+  ${support_dir}/statistics.cpp)
 target_include_directories(pellucid_test_support PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(pellucid_test_support
-  PUBLIC pellucid_pack pellucid_scene pellucid_bvh PRIVATE pellucid_options)
+  PUBLIC pellucid_stability pellucid_pack pellucid_scene pellucid_bvh PRIVATE pellucid_options)
 target_compile_options(pellucid_test_support PRIVATE ${twin_flags})
 set_source_files_properties(${support_dir}/double_twin.cpp
   PROPERTIES COMPILE_DEFINITIONS PELLUCID_REAL=double)

@@ -1,7 +1,7 @@
 // The traversal of the packed arrays against brute force in double (numerics 26-28).
 #include <gtest/gtest.h>
 
-#include "support/brute_force.h"
+#include "stability/brute_force.h"
 #include "support/double_twin.h"
 #include "support/test_scenes.h"
 #include "support/twin.h"

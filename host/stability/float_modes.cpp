@@ -1,0 +1,55 @@
+// Relaxed arithmetic (numerics 5): `mad` and `fast` render the pictures of `strict`, lose nothing
+// through closed meshes, and count no error.
+//
+// What must not be relaxed is not: where rays meet shapes every operation is rounded as written in
+// all modes (EXACT_BEGIN), no infinity is computed with, and NaN is told by its bits.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "stability/exact.h"
+#include "stability/measurements.h"
+#include "stability/small_scenes.h"
+
+namespace pellucid::stability {
+namespace {
+
+Picture render(const Lab& lab, const Scene& scene, const char* method, FloatMode mode) {
+  Build build{method, 16, 16};
+  build.float_mode = mode;
+  return Renderer(lab, scene, build).render({lab.count(64), 1, long_enough, MIS_BALANCE});
+}
+
+}  // namespace
+
+void relaxed_modes_keep_the_picture(const Lab& lab, Findings& findings) {
+  const Scene box = light_tight_box();
+  std::vector<const char*> tried{"path", "bdpt"};
+  if (lab.effort > 1) tried.push_back("vcm");  // a dozen kernels more to be compiled, twice
+  for (const char* method : tried) {
+    for (const char* name : {"everything", "equal-lights"}) {
+      const Scene scene = lab.open_scene(name);
+      const Picture strict = render(lab, scene, method, FloatMode::strict);
+      for (FloatMode mode : {FloatMode::mad, FloatMode::fast}) {
+        const Picture relaxed = render(lab, scene, method, mode);
+        double off = 0;
+        for (int c = 0; c < 3; ++c)
+          off = std::max(off, std::abs(relaxed.image(c).mean / strict.image(c).mean - 1));
+        // The same random numbers: few paths go another way.
+        findings.at_most(fmt::format("{} of {} beside strict: relative difference of means, {}",
+                                     float_mode_name(mode), name, method),
+                         off, 0.005);
+      }
+    }
+    for (FloatMode mode : {FloatMode::mad, FloatMode::fast}) {
+      std::uint64_t lit = 0;
+      for (const auto& pixel : render(lab, box, method, mode).pixels) lit += pixel[0].mean != 0;
+      findings.none(
+          fmt::format("lit pixels in a closed box by {}, {}", float_mode_name(mode), method), lit);
+    }
+  }
+}
+
+}  // namespace pellucid::stability

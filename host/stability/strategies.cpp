@@ -1,0 +1,81 @@
+// Densities that agree with what is sampled (numerics 6): all strategies that can find the paths of
+// one length have the same mean, each by itself, unweighted.
+//
+// sample(), eval() and pdf() of a lobe are one function's business, and the density of a vertex is
+// stored with it (transport/vertex.h). That weights add up to 1 on every path is for the tests of
+// the twin, which weigh each strategy by brute force in double (tests/unit/audit_*).
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "integrators/registry.h"
+#include "render/layers.h"
+#include "render/session.h"
+#include "shared/layers.h"
+#include "stability/measurements.h"
+
+namespace pellucid::stability {
+namespace {
+
+constexpr int side = 24;
+
+/// Sum of a layer in all pixels and channels, as radiance.
+double total(const Film& film, uint layer) {
+  double sum = 0;
+  for (std::size_t i = 0; i < film.pixels.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const uint* word =
+          &film.layers.words[i * film.layers.words_per_pixel() + layer * LAYER_WORDS + 2 * c];
+      sum += std::ldexp(double(word[1]), 32) + double(word[0]);
+    }
+  return sum / double(film.layers.scale);
+}
+
+/// Differences to light samples (s = 1), over seeds.
+struct Difference {
+  double sum = 0, square = 0;
+  void add(double d) { sum += d, square += d * d; }
+};
+
+}  // namespace
+
+void strategies_agree(const Lab& lab, Findings& findings) {
+  constexpr int seeds = 12;
+  constexpr uint longest = 3;
+  Scene scene = lab.open_scene("cornell-box");
+  scene.settings.width = scene.settings.height = side;
+  const PackedScene packed = pack_scene(scene, {simd_width_for(lab.device.info())});
+  const Integrator method = with_layers(find_integrator("bdpt"), LAYERS_TECH, longest + 1);
+  RenderOptions options;
+  options.width = options.height = side;
+  options.passes = PassRange{0, lab.count(128)};
+  options.plan.extra_features = all_scene_features();
+  options.plan.kernel_dir = lab.kernel_dir;
+  double level[longest + 1] = {};
+  Difference difference[longest + 1][longest + 1];
+  for (int seed = 0; seed < seeds; ++seed) {
+    options.seed = std::uint64_t(seed);
+    Session session(lab.device, packed, method, options);
+    session.run({});
+    const Film& film = session.film();
+    for (uint depth = 2; depth <= longest; ++depth) {
+      const double nee = total(film, layer_of_unweighted(film.layers.set, 1, depth));
+      level[depth] += nee / seeds;
+      for (uint s = 0; s <= depth; ++s)
+        difference[depth][s].add(total(film, layer_of_unweighted(film.layers.set, s, depth)) - nee);
+    }
+  }
+  for (const auto& [s, depth] : {std::pair{0u, 2u}, {2u, 2u}, {0u, 3u}, {2u, 3u}, {3u, 3u}}) {
+    const Difference& d = difference[depth][s];
+    const double mean = d.sum / seeds;
+    const double noise =
+        4.5 * std::sqrt((d.square / seeds - mean * mean) / (seeds - 1)) / level[depth];
+    const std::string name = fmt::format("length {}: s = {} beside s = 1", depth, s);
+    findings.at_most(name + ", relative difference", std::abs(mean) / level[depth], noise);
+    const double resolution = 0.08 / std::sqrt(lab.effort);
+    if (!(noise <= resolution)) findings.at_most(name + ": too noisy to judge", noise, resolution);
+  }
+}
+
+}  // namespace pellucid::stability

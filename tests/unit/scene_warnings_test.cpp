@@ -1,0 +1,119 @@
+// Warnings of what makes pictures depend on rounding: lights that lie on a surface, scenes far from
+// the origin, and needles.
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "scene/coplanar.h"
+#include "scene/distance.h"
+#include "scene/mesh_tools.h"
+#include "scene/needles.h"
+#include "scene/thin_glass.h"
+#include "scene_test_support.h"
+
+namespace pellucid {
+namespace {
+
+Mesh square(double half, double y, bool downwards) {
+  Mesh mesh;
+  const auto h = float(half), z = float(y);
+  mesh.positions = {{-h, z, -h}, {h, z, -h}, {h, z, h}, {-h, z, h}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  if (!downwards)
+    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+  return mesh;
+}
+
+/// A light of half width 1 at height 1, and another surface.
+Scene with(Shape other, bool downwards = true) {
+  Scene scene;
+  scene.materials.emplace_back();
+  Shape light;
+  light.name = "panel";
+  light.emission = Emission{};
+  light.geometry = square(1, 1, downwards);
+  other.name = "other";
+  scene.shapes = {light, std::move(other)};
+  return scene;
+}
+
+Shape shape_of(std::variant<Mesh, Sphere, Disk> geometry) {
+  Shape shape;
+  shape.geometry = std::move(geometry);
+  return shape;
+}
+
+TEST(SceneWarnings, LightsOnASurfaceAreNamed) {
+  for (bool light_down : {true, false})
+    for (bool ceiling_down : {true, false}) {
+      const std::string text =
+          coplanar_warning(with(shape_of(square(5, 1, ceiling_down)), light_down));
+      EXPECT_NE(text.find("panel"), std::string::npos);
+      EXPECT_NE(text.find("other"), std::string::npos);
+    }
+  EXPECT_NE(coplanar_warning(with(shape_of(Disk{{0, 1, 0}, {0, 1, 0}, 3, {1, 0, 0}, {0, 0, 1}}))),
+            "");
+  EXPECT_NE(coplanar_warning(with(shape_of(square(5, 1 + 0x1p-23, true)))), "") << "one ulp";
+}
+
+TEST(SceneWarnings, LightsBesideOrOffASurfaceAreNot) {
+  EXPECT_EQ(coplanar_warning(with(shape_of(square(5, 1.001, true)))), "") << "clear of it";
+  EXPECT_EQ(coplanar_warning(with(shape_of(Sphere{{0, 2, 0}, 1}))), "") << "a sphere touches it";
+  Mesh beside = square(1, 1, true);
+  for (glm::vec3& p : beside.positions) p.x += 2;
+  EXPECT_EQ(coplanar_warning(with(shape_of(beside))), "") << "they share an edge";
+  Scene dark = with(shape_of(square(5, 1, true)));
+  dark.shapes[0].emission.reset();
+  EXPECT_EQ(coplanar_warning(dark), "") << "no light";
+}
+
+TEST(SceneWarnings, LampsThatStandOnAFloorAreNot) {
+  const BakedMesh box = bake_mesh(make_cube({0, 0.5, 0}, {1, 1, 1}), {}, false);
+  Shape floor = shape_of(square(5, 0, false));
+  Scene scene = with(std::move(floor));
+  scene.shapes[0].geometry = box.mesh;
+  EXPECT_EQ(coplanar_warning(scene), "");
+}
+
+TEST(SceneWarnings, FarAwayIsToldWithItsError) {
+  const auto at = [](double distance) {
+    Scene scene;
+    scene.shapes.push_back(shape_of(Sphere{{distance, 0, 0}, 1}));
+    return scene;
+  };
+  EXPECT_EQ(distance_warning(at(0)), "");
+  EXPECT_EQ(distance_warning(at(2e4)), "");
+  EXPECT_NE(distance_warning(at(2e6)).find("0.12"), std::string::npos) << distance_warning(at(2e6));
+  EXPECT_EQ(distance_warning(Scene()), "") << "nothing there";
+}
+
+TEST(SceneWarnings, ThinGlassIsMeasured) {
+  const auto pane = [](double thickness, MaterialKind kind) {
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.materials[0].kind = kind;
+    const BakedMesh box = bake_mesh(make_cube({0, 0, 0}, {4, thickness, 4}), {}, false);
+    scene.shapes.push_back(shape_of(box.mesh));
+    return thin_glass_warning(scene);
+  };
+  EXPECT_EQ(pane(1e-4, MaterialKind::dielectric), "");
+  EXPECT_NE(pane(1e-6, MaterialKind::dielectric).find("1e-06 thick"), std::string::npos)
+      << pane(1e-6, MaterialKind::dielectric);
+  EXPECT_EQ(pane(1e-6, MaterialKind::diffuse), "") << "no glass";
+}
+
+TEST(SceneWarnings, NeedlesAreCounted) {
+  const auto with_width = [](float width) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, width, 0}, {1, 1, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 1, 3}};
+    Scene scene;
+    scene.shapes.push_back(shape_of(mesh));
+    return needle_warning(scene);
+  };
+  EXPECT_EQ(with_width(1e-4f), "");
+  EXPECT_NE(with_width(1e-5f).find("has 1 triangles"), std::string::npos) << with_width(1e-5f);
+}
+
+}  // namespace
+}  // namespace pellucid
