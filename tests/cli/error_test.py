@@ -39,7 +39,8 @@ def test_every_method_ends_by_it():
         check(looks == [64 << i for i in range(len(looks))] and looks[-1] == spp, "looks", looks)
         check(4 <= estimate["groups"] <= 16, "groups", estimate)
         for look in estimate["looks"][:-1]:
-            check(look["relmse_upper"] > estimate["target"]**2, "it was not below before", estimate)
+            upper = look["relmse_upper"]  # null: too little is known for any bound
+            check(upper is None or upper > estimate["target"]**2, "it was not below before", estimate)
         merges = method in ("sppm", "bpm", "vcm")
         said = " ".join(estimate["unknown"])
         check(("radius" in said) == merges and "no pass has met" in said, "what it cannot know", said)
