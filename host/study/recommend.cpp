@@ -40,6 +40,7 @@ class Chooser {
  private:
   std::vector<int> candidates() const;
   bool differ(int a, int b) const;
+  bool idle(int i, const std::vector<int>& all) const;
   std::size_t runs_of(const StudyOption& option) const;
   double error_of(int i) const;
   std::pair<double, double> time_ratio(const StudyOption& option) const;
@@ -96,6 +97,16 @@ bool Chooser::differ(int a, int b) const {
   const double dof = double(runs_of(x) + runs_of(y) - 2);
   return std::abs(std::log(u / v)) >
          student_quantile(0.5 + 0.5 * STUDY_CONFIDENCE, dof) * std::hypot(error_of(a), error_of(b));
+}
+
+/// Whether it is a relaxed precision that is no better than the strict one, though it may not
+/// differ from a quicker one.
+bool Chooser::idle(int i, const std::vector<int>& all) const {
+  const StudyOption& option = s_.options[std::size_t(i)];
+  return option.precision != "strict" && std::any_of(all.begin(), all.end(), [&](int j) {
+           const StudyOption& other = s_.options[std::size_t(j)];
+           return other.integrator == option.integrator && other.plain() && !differ(i, j);
+         });
 }
 
 std::string Chooser::time_text(int i) const {
@@ -167,7 +178,8 @@ void Chooser::choose() {
   for (int i : all)
     if (i == quickest || !differ(i, quickest)) alike.push_back(i);
   s_.recommended = *std::min_element(alike.begin(), alike.end(), [&](int a, int b) {
-    return simplicity(s_.options[std::size_t(a)]) < simplicity(s_.options[std::size_t(b)]);
+    return std::pair(idle(a, all), simplicity(s_.options[std::size_t(a)])) <
+           std::pair(idle(b, all), simplicity(s_.options[std::size_t(b)]));
   });
   std::vector<std::string> names;
   for (int i : alike)

@@ -281,6 +281,16 @@ TEST(StudyAnalysis, a_hair_is_not_worth_it) {
   EXPECT_EQ(world.study().equals.size(), 2u);
 }
 
+// One precision saves time; another, simpler one overlaps with it, and with strict arithmetic, too.
+TEST(StudyAnalysis, what_saves_nothing_is_not_recommended) {
+  World world(9500);
+  world.add_relaxed({"path", 0.08, 0.01});
+  world.study().pairs = {{"path", "mad", 256, 1e-12, 1e-11, 1.02, 0.92, 1.08, 3, 0, 5},
+                         {"path", "fast", 256, 1e-12, 1e-11, 0.85, 0.84, 0.94, 3, 0, 5}};
+  analyse(world.study());
+  EXPECT_EQ(world.study().recommended, 2) << world.study().recommendation;
+}
+
 TEST(StudyAnalysis, relaxed_beside_relaxed) {
   World world(9300);
   world.add_relaxed({"path", 0.08, 0.01});
