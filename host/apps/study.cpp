@@ -270,8 +270,8 @@ void declare_race(CLI::App& app, StudyCommand& c) {
                  "methods are tried in each")
       ->type_name("all|LIST");
   app.add_option("--ref", c.reference,
-                 "EXR to measure against, best with its variance (default: made here by two "
-                 "methods that see all, which must agree)")
+                 "EXR to measure against, best with its variance (default: made here by "
+                 "methods that see all; if two are needed, they must agree)")
       ->type_name("FILE");
   app.add_option("--seed", c.seed, "random seed of the study (default 0)")
       ->check(CLI::Range(0u, 1000000u));

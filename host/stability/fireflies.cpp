@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/statistics.h"
 #include "scene/mesh_tools.h"
 #include "stability/measurements.h"
 #include "stability/renderer.h"
@@ -26,9 +27,7 @@ double brightest(const Picture& picture) {
 double median(const Picture& picture) {
   std::vector<double> values;
   for (const auto& pixel : picture.pixels) values.push_back(pixel[0].mean);
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
+  return median_of(std::move(values));
 }
 
 /// A cube of edge 2 from within, seen along its diagonal into a corner.

@@ -3,11 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/statistics.h"
-#include "base/timer.h"
 #include "shared/limits.h"
 #include "study/ladder.h"
 #include "study/tiles.h"

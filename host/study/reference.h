@@ -1,4 +1,5 @@
-// What errors are measured against: a file, or the agreement of two methods that see all.
+// What errors are measured against: a file, what two methods agree on, or what merging says at
+// radius 0.
 #pragma once
 
 #include <memory>
@@ -11,7 +12,6 @@ struct Reference {
   Picture picture;
   std::vector<double> weights;  ///< of relMSE
   StudyReference facts;
-  bool read = false;  ///< from a file
 };
 
 /// What a file must be a picture of.

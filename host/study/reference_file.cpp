@@ -85,7 +85,6 @@ Reference read_reference(const std::string& file, const ReferenceWanted& wanted)
                     "and --crop",
                     file, image.width, image.height, wanted.width, wanted.height));
   Reference r;
-  r.read = true;
   r.facts.source = file;
   check_origin(image, file, wanted, r.facts);
   const char* names[3] = {"R", "G", "B"};

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <random>
 
 #include "base/error.h"
@@ -84,8 +83,18 @@ void Runner::tell(const std::string& text) const {
   request_.tell(fmt::format("{}  at most {} left", text, format_seconds(left)));
 }
 
+/// Unbiased, and drawing all paths by design: two of these make a reference if there are any.
+bool aims_at_all(const Integrator& method, const SceneOptics& optics) {
+  return method.name != "reference" && !method.wishes.has(INTG_MERGE) &&
+         unreachable_paths(method, optics).empty() && chance_paths(method, optics).empty();
+}
+
 /// Options asked for, and methods that could make the reference.
 void Runner::enlist() {
+  const std::vector<Integrator>& all = integrators();
+  const bool any_aims = std::any_of(all.begin(), all.end(), [this](const Integrator& method) {
+    return aims_at_all(method, optics_);
+  });
   for (const Integrator& method : integrators()) {
     Entry entry;
     entry.option.unreachable = unreachable_paths(method, optics_);
@@ -94,7 +103,8 @@ void Runner::enlist() {
     entry.asked = std::find(asked.begin(), asked.end(), method.name) != asked.end();
     const bool sees = entry.option.unreachable.empty();
     entry.voice = method.name != "reference" && sees;
-    if (!entry.asked && (!entry.voice || !request_.reference.empty())) continue;
+    const bool needed = entry.voice && (!any_aims || aims_at_all(method, optics_));
+    if (!entry.asked && (!needed || !request_.reference.empty())) continue;
     entry.contender = std::make_unique<Contender>(stage_, method, "strict");
     if (!sees) entry.option.state = OptionState::blind;
     entries_.push_back(std::move(entry));
