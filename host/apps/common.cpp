@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -100,26 +101,50 @@ std::pair<int, int> parse_size(std::string_view option, const std::string& text)
   return size;
 }
 
-Window parse_crop(std::string_view option, const std::string& text, int width, int height) {
-  const char* accepted = "pixels x0,x1,y0,y1 with x0 < x1 and y0 < y1, such as 0,128,64,128";
+/// Reads whole numbers with commas between them: all of the text, or false.
+template <typename T, std::size_t N>
+static bool read_list(const std::string& text, std::array<T, N>& numbers) {
   const char *at = text.data(), *const end = at + text.size();
-  int edges[4];
-  for (int i = 0; i < 4; ++i) {
-    if (i > 0 && (at == end || *at++ != ',')) refuse(option, text, accepted);
-    const auto result = std::from_chars(at, end, edges[i]);
-    if (result.ec != std::errc()) refuse(option, text, accepted);
+  for (T& number : numbers) {
+    if (&number != numbers.data() && (at == end || *at++ != ',')) return false;
+    const auto result = std::from_chars(at, end, number);
+    if (result.ec != std::errc()) return false;
     at = result.ptr;
   }
+  return at == end;
+}
+
+constexpr std::uint64_t most_passes = std::uint64_t{1} << 32;
+
+Window parse_crop(std::string_view option, const std::string& text, int width, int height) {
+  const char* accepted = "pixels x0,x1,y0,y1 with x0 < x1 and y0 < y1, such as 0,128,64,128";
+  std::array<int, 4> edges{};
+  if (!read_list(text, edges)) refuse(option, text, accepted);
   const auto [x0, x1, y0, y1] = edges;
-  if (at != end || x0 >= x1 || y0 >= y1) refuse(option, text, accepted);
+  if (x0 >= x1 || y0 >= y1) refuse(option, text, accepted);
   if (x0 < 0 || y0 < 0 || x1 > width || y1 > height)
     throw UsageError(
         fmt::format("{} {} reaches outside the picture of {}x{}", option, text, width, height));
   return {x0, y0, x1 - x0, y1 - y0};
 }
 
+SamplePlace parse_sample(std::string_view option, const std::string& text, const Window& w) {
+  std::array<std::uint64_t, 3> numbers{};
+  if (!read_list(text, numbers))
+    refuse(option, text, "column, row and pass X,Y,PASS, such as 12,40,7");
+  const auto [x, y, pass] = numbers;
+  const auto inside = [](std::uint64_t at, int from, int size) {
+    return at >= std::uint64_t(from) && at < std::uint64_t(from + size);
+  };
+  if (!inside(x, w.x0, w.width) || !inside(y, w.y0, w.height))
+    throw UsageError(fmt::format("{} {}: the picture has columns {} to {} and rows {} to {}",
+                                 option, text, w.x0, w.x0 + w.width - 1, w.y0,
+                                 w.y0 + w.height - 1));
+  if (pass >= most_passes) refuse(option, text, "a pass below 2^32");
+  return {int(x), int(y), pass};
+}
+
 PassRange parse_passes(std::string_view option, const std::string& text) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 32;
   const char* accepted = "a range A:B of passes with A < B, such as 0:64";
   PassRange range;
   const char* const end = text.data() + text.size();
@@ -127,7 +152,8 @@ PassRange parse_passes(std::string_view option, const std::string& text) {
   if (first.ec != std::errc() || first.ptr == end || *first.ptr != ':')
     refuse(option, text, accepted);
   const auto last = std::from_chars(first.ptr + 1, end, range.last);
-  if (last.ec != std::errc() || last.ptr != end || range.first >= range.last || range.last > most)
+  if (last.ec != std::errc() || last.ptr != end || range.first >= range.last ||
+      range.last > most_passes)
     refuse(option, text, accepted);
   return range;
 }

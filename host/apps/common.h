@@ -25,6 +25,13 @@ std::pair<int, int> parse_size(std::string_view option, const std::string& text)
 
 /// Pixels "x0,x1,y0,y1", half-open, of a picture of that size.
 Window parse_crop(std::string_view option, const std::string& text, int width, int height);
+/// One sample of a picture.
+struct SamplePlace {
+  int x = 0, y = 0;
+  std::uint64_t pass = 0;
+};
+/// "X,Y,PASS", of a pixel in the window and a pass below 2^32.
+SamplePlace parse_sample(std::string_view option, const std::string& text, const Window& window);
 /// Global passes "A:B", A < B <= 2^32.
 PassRange parse_passes(std::string_view option, const std::string& text);
 /// Bytes from "2G", "512M", "1.5GiB", "1000000"; suffixes are powers of 1024; positive.

@@ -13,6 +13,7 @@
 #include "apps/outputs.h"
 #include "apps/render_options.h"
 #include "apps/render_report.h"
+#include "apps/replay_report.h"
 #include "apps/scene_input.h"
 #include "base/files.h"
 #include "base/log.h"
@@ -43,6 +44,8 @@ class RenderJob {
   void write(const Film& film, bool pictures);
   void write_pictures_of(const Film& film);
   void write_checkpoint_of(const Film& film);
+  void list_fireflies(const Device& target, const Film& film);
+  ExitCode tell_replay(const Device& target);
   ExitCode finish(bool complete);
 
   const RenderFlags& flags_;
@@ -53,6 +56,8 @@ class RenderJob {
   RenderFacts facts_;
   std::vector<std::string> names_;
   std::vector<AovChannel> aovs_;
+  std::vector<FireflyReplay> fireflies_;
+  SamplePlace replayed_;
   std::optional<Checkpoint> earlier_;  ///< what --resume found, without its film
 };
 
@@ -96,7 +101,10 @@ void RenderJob::prepare() {
     throw InputError("--strict: the warnings above are errors");
   facts_.scene_hash = scene_hash(scene_);
   facts_.kernels_hash = kernels_hash(*facts_.integrator, flags_.kernel_dir);
-  check_outputs();
+  if (flags_.replay.empty())
+    check_outputs();
+  else
+    replayed_ = parse_sample("--replay", flags_.replay, facts_.options.window());
 }
 
 /// The film of the checkpoint that --resume names, if it is there.
@@ -216,6 +224,32 @@ bool RenderJob::render(Session& session) {
   return session.run(hooks);
 }
 
+/// --fireflies: finds the samples in the film and traces each again.
+void RenderJob::list_fireflies(const Device& target, const Film& film) {
+  const PhaseScope phase(Phase::write);
+  Progress progress("replaying");
+  for (const Firefly& f : fireflies(film, flags_.fireflies)) {
+    if (stop_.stop_requested()) return;
+    progress.update(fmt::format("{} of {}", fireflies_.size() + 1, flags_.fireflies));
+    fireflies_.push_back({f, replay(target, *facts_.packed, flags_.plain_method(scene_),
+                                    facts_.options, f.x, f.y, f.pass)});
+  }
+}
+
+/// --replay: one sample instead of a picture.
+ExitCode RenderJob::tell_replay(const Device& target) {
+  const Replay found = replay(target, *facts_.packed, method_, facts_.options, replayed_.x,
+                              replayed_.y, replayed_.pass);
+  nlohmann::json document = replay_json(found, scene_);
+  document["scene"] = scene_.name;
+  document["scene_hash"] = facts_.scene_hash;
+  document["integrator"] = method_.name;
+  document["seed"] = facts_.options.seed;
+  write_json(common_.json, document);
+  if (common_.wants_text()) print_result(replay_text(found, scene_));
+  return ExitCode::done;
+}
+
 ExitCode RenderJob::finish(bool complete) {
   const PhaseScope phase(Phase::write);
   const RenderFacts& f = facts_;
@@ -245,10 +279,12 @@ ExitCode RenderJob::finish(bool complete) {
   nlohmann::json document = render_stats(f);
   document["outputs"] = flags_.results(names_);
   document["complete"] = complete;
+  if (flags_.fireflies) document["fireflies"] = fireflies_json(fireflies_, scene_);
   write_json(flags_.stats, document);
   write_json(common_.json, document);
   if (common_.wants_text())
     for (const std::string& name : flags_.results(names_)) print_result(name + "\n");
+  if (common_.wants_text() && flags_.fireflies) print_result(fireflies_text(fireflies_));
   if (flags_.strict && error_count(f.session->counters()) > 0)
     throw NumericError("--strict: " + counters);
   if (!complete) return ExitCode::stopped;
@@ -281,6 +317,10 @@ ExitCode RenderJob::run() {
     tell_plan(facts_, flags_.results(names_), common_);
     return ExitCode::done;
   }
+  if (!flags_.replay.empty()) {
+    image_library.get();
+    return tell_replay(target);
+  }
   if (!render_aov_channels(target)) {
     log_warn("stopped early, in the AOVs and before the first pass: nothing is written");
     return ExitCode::stopped;
@@ -298,6 +338,7 @@ ExitCode RenderJob::run() {
 
   const bool complete = render(session);
   write(session.film(), true);
+  if (flags_.fireflies) list_fireflies(target, session.film());
   return finish(complete);
 }
 

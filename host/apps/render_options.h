@@ -16,6 +16,9 @@ class App;
 
 namespace pellucid {
 
+/// Everything that --aov takes: the film's own channels, its layers, then what the AOV pass makes.
+std::vector<std::string> aov_names();
+
 /// Values of --radius and --radius-alpha. Throw UsageError out of range.
 double parse_radius(const std::string& text);
 double parse_radius_alpha(const std::string& text);
@@ -25,12 +28,13 @@ struct RenderFlags {
   std::string scene, integrator, mis = "balance", sampler = "sobol", filter, time, error, size,
                                  crop, passes, features = "auto", float_mode = "strict", kernel_dir,
                                  stats, memory, checkpoint, every, vertices, radius, radius_alpha,
-                                 merges, atlas, grid;
+                                 merges, atlas, grid, replay;
   std::vector<std::string> overrides, outputs, aovs;
   DeviceFlags device;
   DisplayFlags display;
   std::uint64_t spp = 0, seed = 0, max_depth = 0, group = 0, light_paths = 0;
   std::uint64_t aov_length = 0;  ///< 0: not given
+  std::uint64_t fireflies = 0;
   bool strict = false, deterministic = false, resume = false, dry_run = false;
 
   void declare(CLI::App& app);
@@ -39,9 +43,9 @@ struct RenderFlags {
   LoadOptions load_options() const;
   /// The scene's settings as the flags want them. Throws UsageError.
   void override_settings(RenderSettings& settings) const;
-  /// The method that flag, scene or default name, with the layers that --aov, --atlas and --grid
-  /// need.
-  /// Throws UsageError.
+  /// The method that flag, scene or default name. Throws UsageError.
+  const Integrator& plain_method(const Scene& s) const;
+  /// The same with the layers that --aov, --atlas and --grid need. Throws UsageError.
   Integrator method(const Scene& s) const;
   /// What the session is told. Throws UsageError.
   RenderOptions options(const Scene& scene, const Integrator& method) const;
@@ -56,6 +60,7 @@ struct RenderFlags {
   void declare_files(CLI::App& app);     ///< pictures
   void declare_progress(CLI::App& app);  ///< checkpoints and ranges of passes
   uint layer_kinds() const;              ///< LAYERS_* that are asked for
+  void check_replay() const;
 };
 
 }  // namespace pellucid

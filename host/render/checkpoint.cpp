@@ -36,7 +36,7 @@ std::vector<std::string> word_names() {
        {std::pair{"sum", FILM_SUM_WORDS}, {"block", FILM_SUM_WORDS}, {"square", FILM_SQUARE_WORDS}})
     for (const char* c : channel_names)
       for (int i = 0; i < words; ++i) names.push_back(fmt::format("{}.{}.{}", what, c, i));
-  names.insert(names.end(), {"passes", "rays.0", "rays.1"});
+  names.insert(names.end(), {"passes", "rays.0", "rays.1", "peak", "peak.pass"});
   names.resize(pixel_words);
   return names;
 }

@@ -116,6 +116,7 @@ void Film::merge(const Film& other) {
       wide_add_words(p.sum[c], q.sum[c], FILM_SUM_WORDS);
       wide_add_words(p.square[c], q.square[c], FILM_SQUARE_WORDS);
     }
+    film_keep_peak(&p, q.peak, q.peak_pass);
     p.count[0] += q.count[0];
     wide_add_words(p.count + 1, q.count + 1, 2);
   }

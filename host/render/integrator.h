@@ -22,6 +22,7 @@ enum class Bundle {
   grid,
   aov,
   layers,
+  record,
   diag
 };
 
@@ -45,7 +46,7 @@ struct Pass {
   std::string name;
   std::vector<Bundle> bundles;  ///< parameters before the launch struct
   Domain domain = Domain::tile;
-  bool gathers = false;  ///< adds to layers, where they are asked for
+  bool gathers = false;  ///< adds to layers and to the record, where they are asked for
   uint digit = 0;        ///< of the photon sort
 };
 
@@ -73,6 +74,15 @@ struct Integrator {
       if (std::find(names.begin(), names.end(), pass.name) == names.end())
         names.push_back(pass.name);
     return names;
+  }
+
+  /// Gives a bundle to the passes that gather, in front of `diag`.
+  void add_to_gathering(Bundle bundle) {
+    for (Pass& pass : passes) {
+      if (!pass.gathers) continue;
+      const auto diag = std::find(pass.bundles.begin(), pass.bundles.end(), Bundle::diag);
+      pass.bundles.insert(diag, bundle);
+    }
   }
 
   bool uses(Bundle bundle) const {

@@ -79,11 +79,7 @@ Integrator with_layers(Integrator method, uint kinds, uint longest) {
   method.wishes.set(INTG_LAYERS);
   if (kinds & LAYERS_TECH && method.wishes.has(INTG_MERGE)) kinds |= LAYERS_MERGE;
   method.layers = layer_set_of(kinds, longest, std::min(method.most_s, longest));
-  for (Pass& pass : method.passes) {
-    if (!pass.gathers) continue;
-    const auto diag = std::find(pass.bundles.begin(), pass.bundles.end(), Bundle::diag);
-    pass.bundles.insert(diag, Bundle::layers);
-  }
+  method.add_to_gathering(Bundle::layers);
   return method;
 }
 

@@ -135,6 +135,10 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
     bytes["grid_cells"] = (std::size_t{2} << grid_bits_for(options)) * sizeof(uint);
   }
   if (integrator.uses(Bundle::vertex_counts)) bytes["vertex_counts"] = 2 * sizeof(uint);
+  if (integrator.uses(Bundle::record)) {
+    bytes["record"] = options.record_events * sizeof(PathEvent);
+    bytes["record_count"] = sizeof(uint);
+  }
   if (integrator.uses(Bundle::layers)) bytes["layers"] = pixels * layer_bytes(integrator.layers);
   return bytes;
 }

@@ -46,6 +46,8 @@ struct RenderOptions {
   bool merge_first_only = false;  ///< at the first vertex of eye paths that can
   double radius_alpha = 0.75;     ///< how fast it shrinks: as pass^((alpha - 1) / 2) [Knaus11]
   std::optional<std::uint64_t> memory;  ///< most bytes on the device
+  std::size_t record_events = 0;        ///< that a replay has room for
+  uint record_path = NONE;              ///< light path of which it writes down all
   std::uint64_t host_bytes = 0;         ///< what the host needs beside the film, as for checkpoints
   PlanOptions plan;
 

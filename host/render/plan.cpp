@@ -34,6 +34,8 @@ std::vector<std::string> bundle_buffers(Bundle bundle) {
       return {AOV_BUFFERS(PELLUCID_NAME)};
     case Bundle::layers:
       return {LAYER_BUFFERS(PELLUCID_NAME)};
+    case Bundle::record:
+      return {RECORD_BUFFERS(PELLUCID_NAME)};
     case Bundle::diag:
       return {DIAG_BUFFERS(PELLUCID_NAME)};
   }
@@ -235,6 +237,12 @@ void Plan::write_layers(const Layers& layers, std::size_t first, std::size_t pix
   if (layers.set)
     device_.write(buffers_.at("layers"), &layers.words[first * stride],
                   pixels * stride * sizeof(uint));
+}
+
+std::vector<uint> Plan::read_words(const std::string& buffer) {
+  std::vector<uint> words(buffers_.at(buffer).bytes() / sizeof(uint));
+  device_.read(buffers_.at(buffer), words.data(), words.size() * sizeof(uint));
+  return words;
 }
 
 void Plan::collect(std::vector<Counter>& counters) {

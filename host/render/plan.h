@@ -72,6 +72,8 @@ class Plan {
   /// The tile's layers: `pixels` of them from `first` on.
   void read_layers(Layers& layers, std::size_t first, std::size_t pixels);
   void write_layers(const Layers& layers, std::size_t first, std::size_t pixels);
+  /// What a buffer of whole words holds.
+  std::vector<uint> read_words(const std::string& buffer);
   /// Adds the device's counters to `counters` and clears them.
   void collect(std::vector<Counter>& counters);
 

@@ -48,6 +48,8 @@ Session::Session(const Device& device, const PackedScene& scene, const Integrato
   launch_.max_depth = options_.max_depth.value_or(NONE);
   launch_.mis = options_.mis;
   launch_.layer_set = integrator.layers;
+  launch_.record_capacity = uint(options_.record_events);
+  launch_.record_path = options_.record_path;
   film_.layers = Layers(integrator.layers, launch_.layer_scale, film_.pixels.size());
   device_has_film_ = !start && memory_.tiles.size() == 1;  // both black
   if (start) {

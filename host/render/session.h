@@ -42,6 +42,7 @@ class Session {
   /// Puts counts of earlier passes in front of ours.
   void add_counters(const std::vector<Counter>& earlier);
   const Plan& plan() const { return plan_; }
+  Plan& plan() { return plan_; }
   const MemoryPlan& memory() const { return memory_; }
   /// What is known of the error, where one is asked for.
   const std::optional<ErrorEstimate>& error() const { return error_; }

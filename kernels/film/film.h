@@ -40,6 +40,7 @@ INLINE void film_count(GLOBAL FilmPixel* pixel, uint low, uint high) {
 /// (its pixel gets 0 for the iteration) and counted.
 INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, Launch launch, F4 sample) {
   int flaw = 0;
+  float peak = PEAK_DROPPED;
   if (!is_finite(sample.x) || !is_finite(sample.y) || !is_finite(sample.z)) {
     flaw = 1 + DIAG_nonfinite;
   } else if (sample.x < 0.0f || sample.y < 0.0f || sample.z < 0.0f) {
@@ -48,7 +49,9 @@ INLINE void film_accumulate(GLOBAL FilmPixel* pixel, GLOBAL uint* diag, Launch l
     film_add_channel(pixel, 0, film_steps(sample.x, launch.film_lsb, &flaw));
     film_add_channel(pixel, 1, film_steps(sample.y, launch.film_lsb, &flaw));
     film_add_channel(pixel, 2, film_steps(sample.z, launch.film_lsb, &flaw));
+    peak = LUMINANCE_R * sample.x + LUMINANCE_G * sample.y + LUMINANCE_B * sample.z;
   }
+  film_keep_peak(pixel, peak, launch.iteration);
   if (flaw) diag_add(diag, (uint)(flaw - 1));
 #if INTG_SOBOL
   if (launch.block_ends) film_end_block(pixel);

@@ -4,11 +4,27 @@
 
 #include "shared/buffers.h"
 
+#if INTG_RECORD
+/// Where a work-item writes down what its path does (transport/record.h).
+typedef struct Recorder {
+  GLOBAL PathEvent* events;
+  GLOBAL uint* count;  // of all work-items
+  uint capacity;
+  uint path;      // PathEvent.path
+  uint on_light;  // PathEvent.on_light
+  int walk;       // its vertices, too
+  int on;
+} Recorder;
+#endif
+
 #define BUFFER_POINTER(T, name, meaning) GLOBAL const T* name;
 typedef struct SceneData {
   SCENE_BUFFERS(BUFFER_POINTER)
   GLOBAL uint* diag;  // counters
   SceneInfo info;
+#if INTG_RECORD
+  Recorder recorder;
+#endif
 } SceneData;
 
 /// Counts an event of shared/buffers.h.

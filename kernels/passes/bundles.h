@@ -19,6 +19,17 @@
 #define VERTEX_COUNT_PARAMS VERTEX_COUNT_BUFFERS(PARAM)
 #define DIAG_PARAMS DIAG_BUFFERS(PARAM)
 
+// Who replays: RECORDER says of what path, whether with its vertices, and whether at all.
+#if INTG_RECORD
+#define RECORD_PARAMS RECORD_BUFFERS(PARAM)
+#define RECORDER(number, light, vertices, active) \
+  scene_data.recorder =                           \
+      (Recorder){record, record_count, launch.record_capacity, number, light, vertices, active};
+#else
+#define RECORD_PARAMS
+#define RECORDER(number, light, vertices, active)
+#endif
+
 #define SCENE_ASSIGN(T, name, meaning) scene_data.name = name;
 /// Declares `scene_data` from the kernel's parameters.
 #define SCENE_FROM_PARAMS     \

@@ -16,7 +16,7 @@ __kernel void camera_trace(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
 #if INTG_LAYERS
                                    LAYER_PARAMS
 #endif
-                                       DIAG_PARAMS const Launch launch) {
+                                       RECORD_PARAMS DIAG_PARAMS const Launch launch) {
   uint index = (uint)get_global_id(0);
   if (index >= launch.slice_count) return;
   SCENE_FROM_PARAMS
@@ -31,6 +31,7 @@ __kernel void camera_trace(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
   LayerSink sink = layer_sink(layers, diag, launch, pixel);
   if (pixel < launch.gather_first) sink.set = 0u;  // traced again, for its vertices alone
 #endif
+  RECORDER(s.rng.path, 0u, 1, pixel >= launch.gather_first)
   uint rays;
   real3 radiance = path_radiance(&scene_data, launch, s.rng, s.ray, camera_pdf_w(camera, s.ray.d),
 #if INTG_LAYERS

@@ -10,7 +10,7 @@ __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PA
 #if INTG_LAYERS
                           LAYER_PARAMS
 #endif
-                              DIAG_PARAMS const Launch launch) {
+                              RECORD_PARAMS DIAG_PARAMS const Launch launch) {
   uint index = (uint)get_global_id(0);
   if (index >= launch.slice_count) return;
   SCENE_FROM_PARAMS
@@ -21,6 +21,7 @@ __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PA
                                 launch.light_paths) -
               launch.path_first;
   uint light_end = light_first[path + 1u];
+  RECORDER(row * launch.width + column, 0u, 0, 1)
   real3 sum = (float3)(0.0f);
   uint rays = 0u;
   for (uint i = eye_first[index]; i < eye_first[index + 1u]; ++i) {
@@ -38,6 +39,15 @@ __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PA
       ++rays;
       if (bvh_trace(&scene_data, link.ray, 1).prim != NONE) continue;
       sum += link.value * link.weight;
+#if INTG_RECORD
+      PathEvent e = record_event(&scene_data, EVENT_CONNECT, eye.depth);
+      e.partner = path + launch.path_first;
+      e.s = light.depth + 1u;
+      e.t = eye.depth + 1u;
+      e.p = record_row(light.v.surface.p, 0.0f);
+      e.d = record_row(link.ray.d, 0.0f);
+      record_brought(&scene_data, e, link.value, link.weight, link.value * link.weight);
+#endif
 #if INTG_LAYERS
       layer_add(layer_sink(layers, diag, launch, pixel), link.value, link.weight, light.depth + 1u,
                 eye.depth + light.depth + 1u);

@@ -44,6 +44,14 @@ INLINE void splat_vertex(PRIVATE const SceneData* scene, Launch launch, Camera c
   if (bvh_trace(scene, link.ray, 1).prim != NONE) return;
   real3 value = link.value * (link.weight * weight);
   film_splat(splats, scene->diag, launch, x, y, value.x, value.y, value.z);
+#if INTG_RECORD
+  PathEvent e = record_event(scene, EVENT_SPLAT, w->depth);
+  e.s = w->depth + 1u;
+  e.t = 1u;
+  e.p = record_row(v->surface.p, 0.0f);
+  e.d = record_row(link.ray.d, link.pdf_w);
+  record_brought(scene, e, link.value * weight, link.weight, value);
+#endif
 #if INTG_LAYERS
   uint s = w->depth + 1u;
   layer_splat(layers, scene->diag, launch, x, y, link.value * weight, link.weight, s, s);
@@ -69,7 +77,7 @@ __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
 #if INTG_LAYERS
                                   LAYER_PARAMS
 #endif
-                                      DIAG_PARAMS const Launch launch) {
+                                      RECORD_PARAMS DIAG_PARAMS const Launch launch) {
   uint index = (uint)get_global_id(0);
   if (index >= launch.path_count) return;
   SCENE_FROM_PARAMS
@@ -82,10 +90,13 @@ __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
   int stored = rng.path >= launch.store_first && rng.path < launch.store_end;
   VertexStore store = vertex_store_at(light_vertices, &vertex_counts[0], launch.light_capacity);
 #endif
+  RECORDER(rng.path, 1u, splatted && rng.path == launch.record_path, 1)
   LightWalk w = light_walk_start(&scene_data, rng);
+  record_start(&scene_data, w.walk.ray, w.start.pdf, w.walk.beta);
   Vertex v;
   uint limit = depth_limit(launch);
   while (w.depth + 1u < limit && light_walk_next(&scene_data, launch, &w, &v)) {
+    walk_record(&scene_data, w.depth, &v, &w.walk);
     if (!bsdf_is_delta(v.material)) {
 #if INTG_SPLAT
       if (splatted)
@@ -103,6 +114,7 @@ __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
     if (w.depth + 1u == limit && launch.max_depth > limit) diag_count(&scene_data, DIAG_path_stuck);
     if (!walk_scatter(&scene_data, launch, rng, DIM_LIGHT_WALK_BSDF(w.depth - 1u), &v, &w.walk))
       break;
+    record_scatter(&scene_data, w.depth, w.walk.ray, w.walk.pdf_w, w.walk.beta);
   }
 #if INTG_VERTICES
   light_last[index] = store.last;

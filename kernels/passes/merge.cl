@@ -13,6 +13,9 @@ INLINE real3 merge_around(PRIVATE const SceneData* scene, Launch launch,
 #if INTG_LAYERS
                           LayerSink sink,
 #endif
+#if INTG_RECORD
+                          __global const uint* grid_pairs,
+#endif
                           PRIVATE const EndVertex* eye) {
   real3 sum = (float3)(0.0f);
   GridSearch search = grid_search(launch, grid_cells, eye->v.surface.p);
@@ -28,6 +31,15 @@ INLINE real3 merge_around(PRIVATE const SceneData* scene, Launch launch,
     Merge merge;
     if (!merge_photon(scene, launch, eye, photon, &merge)) continue;
     sum += merge.value * merge.weight;
+#if INTG_RECORD
+    PathEvent e = record_event(scene, EVENT_MERGE, eye->depth);
+    e.partner = grid_pairs[2 * (size_t)i + 1u];
+    e.s = photon.depth + 1u;
+    e.t = eye->depth + 1u;
+    e.p = record_row(load3(photon_positions[i]), 0.0f);
+    e.d = record_row(load3(photon.wi_dVCM), 0.0f);
+    record_brought(scene, e, merge.value, merge.weight, merge.value * merge.weight);
+#endif
 #if INTG_LAYERS
     layer_merge(sink, merge.value, merge.weight, eye->depth, depth);
 #endif
@@ -55,11 +67,14 @@ __kernel void merge(SCENE_PARAMS FILM_PARAMS EYE_VERTEX_PARAMS GRID_PARAMS
 #if INTG_LAYERS
                         LAYER_PARAMS
 #endif
-                            DIAG_PARAMS const Launch launch) {
+                            RECORD_PARAMS DIAG_PARAMS const Launch launch) {
   uint index = (uint)get_global_id(0);
   if (index >= launch.slice_count) return;
   SCENE_FROM_PARAMS
   uint pixel = launch.slice_first + index;
+  RECORDER((launch.tile_y + pixel / launch.tile_width) * launch.width + launch.tile_x +
+               pixel % launch.tile_width,
+           0u, 0, 1)
   real3 sum = (float3)(0.0f);
   for (uint i = eye_first[index]; i < eye_first[index + 1u]; ++i) {
     __global const StoredVertex* eye_at = (__global const StoredVertex*)eye_vertices;
@@ -79,6 +94,9 @@ __kernel void merge(SCENE_PARAMS FILM_PARAMS EYE_VERTEX_PARAMS GRID_PARAMS
     sum += merge_around(&scene_data, launch, photon_positions, photons, grid_cells,
 #if INTG_LAYERS
                         sink,
+#endif
+#if INTG_RECORD
+                        grid_pairs,
 #endif
                         &eye);
   }

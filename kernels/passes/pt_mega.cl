@@ -10,14 +10,15 @@ __kernel void pt_mega(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
 #if INTG_LAYERS
                           LAYER_PARAMS
 #endif
-                              DIAG_PARAMS const Launch launch) {
+                              RECORD_PARAMS DIAG_PARAMS const Launch launch) {
   uint pixel = (uint)get_global_id(0);
   if (pixel >= launch.tile_width * launch.tile_height) return;
   SCENE_FROM_PARAMS
   TileSample s = tile_sample(launch, camera, filter_table, pixel);
   VertexStore store = vertex_store_at(0, 0, 0u);
+  RECORDER(s.rng.path, 0u, 1, 1)
   uint rays;
-  real3 radiance = path_radiance(&scene_data, launch, s.rng, s.ray, 1.0f,
+  real3 radiance = path_radiance(&scene_data, launch, s.rng, s.ray, camera_pdf_w(camera, s.ray.d),
 #if INTG_LAYERS
                                  layer_sink(layers, diag, launch, pixel),
 #endif

@@ -64,6 +64,11 @@
   X(uint, layers,        \
     "64-bit fixed point, low word first [pixels][layers][3 channels][2 words] (shared/layers.h)")
 
+// What the paths of a replay do (transport/record.h).
+#define RECORD_BUFFERS(X)                                                             \
+  X(PathEvent, record, "of each path in order, paths mixed [Launch.record_capacity]") \
+  X(uint, record_count, "events that wanted to be there [1]")
+
 #define AOV_BUFFERS(X) X(AovPixel, aovs, "what camera rays meet first [pixels]")
 
 #define DIAG_BUFFERS(X) X(uint, diag, "counters of what went wrong [DIAG_COUNT]")

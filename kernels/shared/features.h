@@ -40,6 +40,7 @@
   X(INTG_MERGE, "eye vertices merged with the light vertices around them")       \
   X(INTG_COMPACT, "path vertices in half the bytes")                             \
   X(INTG_LAYERS, "radiance kept apart by path length and strategy")              \
+  X(INTG_RECORD, "what paths do and bring, written down")                        \
   X(INTG_SOBOL, "Owen-scrambled Sobol points instead of random numbers")         \
   X(INTG_FILTER, "a pixel filter that is not the box")
 

@@ -6,6 +6,15 @@
 #include "shared/limits.h"
 #include "shared/wide.h"
 
+/// Remembers the brightest sample of the pixel, and of equal ones the first; one that was dropped
+/// counts as the brightest (PEAK_DROPPED).
+INLINE void film_keep_peak(GLOBAL FilmPixel* pixel, float luminance, uint pass) {
+  if (luminance < pixel->peak) return;
+  if (luminance == pixel->peak && (luminance == 0.0f || pass >= pixel->peak_pass)) return;
+  pixel->peak = luminance;
+  pixel->peak_pass = pass;
+}
+
 /// Ends the block under way: its total joins the sum, the total's square the squares.
 INLINE void film_end_block(GLOBAL FilmPixel* pixel) {
   for (int c = 0; c < 3; ++c) {

@@ -183,8 +183,8 @@ typedef struct Launch {
   int film_lsb;                  // exponent of the film's step: sums count multiples of 2^film_lsb
   uint block_ends;               // 1: this iteration completes its block
   uint layer_set;                // layers that are kept apart (shared/layers.h)
-  uint pad0;
-  uint window_x, window_y;            // the rendered part of the picture: tiles are parts of it
+  uint record_capacity;          // events that the record holds
+  uint window_x, window_y;       // the rendered part of the picture: tiles are parts of it
   uint window_width, window_height;   // pixels
   uint slice_first, slice_count;      // pixels of the tile that passes over slices are about
   uint light_paths;                   // of an iteration, for the whole picture
@@ -203,7 +203,7 @@ typedef struct Launch {
   uint digit;                    // of the sort, from 0
   float
       mis_deep;  // what merges after the first weigh of what their density says; 0: there are none
-  uint pad1;
+  uint record_path;  // light path of which all is recorded, or NONE
 } Launch;
 LAYOUT_CHECK(Launch, 176);
 
@@ -255,9 +255,37 @@ typedef struct FilmPixel {
   uint square[3][FILM_SQUARE_WORDS];  // squares of complete blocks' totals, steps of
                                       // 2^(2 film_lsb + FILM_SQUARE_DROP)
   uint count[3];                      // iterations, rays (low word), rays (high word)
-  uint pad0, pad1, pad2;
+  float peak;                         // luminance of the brightest sample, or PEAK_DROPPED
+  uint peak_pass;                     // its iteration; the first of them
+  uint pad0;
 } FilmPixel;
 LAYOUT_CHECK(FilmPixel, 192);
+
+// Kinds of events. A walk:
+#define EVENT_START 0u    // from p along d; pdf: of the camera [1/sr], or EmitSample.pdf
+#define EVENT_VERTEX 1u   // it has come to p; d: geometric normal
+#define EVENT_SCATTER 2u  // it goes on along d; pdf [1/sr], survival included; 0: by a delta lobe
+// Light of the sample:
+#define EVENT_EMISSION 3u  // found by chance
+#define EVENT_NEE 4u       // found by a light sample
+#define EVENT_CONNECT 5u   // of a connection with the vertex p of light path `partner`
+#define EVENT_MERGE 6u     // of a merge with the photon p, `partner`: its place in light_order
+#define EVENT_SPLAT 7u     // of a light path's vertex p that the camera sees
+/// What happens on a path that is replayed. Written by the passes that walk, connect and merge.
+typedef struct PathEvent {
+  uint kind;      // EVENT_*
+  uint path;      // pixel of the whole picture, or number of the light path
+  uint on_light;  // 1: a light path
+  uint depth;     // segments of that path so far
+  uint partner;   // see above, or NONE
+  uint s, t;      // vertices drawn from either end; of a merge, its own from both
+  uint material;  // of a vertex, or NONE
+  F4 p;           // world units; light: w: weight
+  F4 d;           // unit; w: pdf, of light: that of chance to look there
+  F4 value;       // a walk: beta; light: unweighted radiance, w: light samples' pdf [1/sr]
+  F4 brought;     // light: what the sample got of it; a vertex: x dVCM, y dVC
+} PathEvent;
+LAYOUT_CHECK(PathEvent, 96);
 
 /// What the camera sees first. Written by aov.
 typedef struct AovPixel {

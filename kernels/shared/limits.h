@@ -104,6 +104,14 @@
 /// and all passes add up in 64 bits: 2^20 passes of the brightest fit.
 #define LAYER_FRACTION_BITS 44
 
+/// Luminance of linear Rec.709.
+#define LUMINANCE_R 0.2126f
+#define LUMINANCE_G 0.7152f
+#define LUMINANCE_B 0.0722f
+
+/// FilmPixel.peak of a pixel of which a sample was dropped: finite, as fast modes want it.
+#define PEAK_DROPPED 3.40282346638528859812e+38f
+
 /// Film sums count steps of 2^-56 of the brightest light (Launch.film_lsb), to which samples are
 /// rounded: they keep 24 bits down to 2^-32 of it, 8 bits down to 2^-48.
 #define FILM_FRACTION_BITS 56

@@ -5,7 +5,7 @@
 // clang-format off
 #define LAYOUT_STRUCTS(X) \
   X(Triangle) X(Quadric) X(Shape) X(Material) X(Texture) X(Light) X(SceneInfo) X(Camera) X(Launch) X(FilmPixel) \
-  X(AovPixel) X(PathVertex) X(CompactVertex) X(Photon)
+  X(AovPixel) X(PathEvent) X(PathVertex) X(CompactVertex) X(Photon)
 
 #define LAYOUT_FIELDS(X)                                                                  \
   X(Triangle, shape)                                                                      \
@@ -21,7 +21,8 @@
   X(Launch, layer_set)                                                                    \
   X(PathVertex, ng_u) X(PathVertex, ns_v) X(PathVertex, wo_dVCM) X(PathVertex, beta_dVC)  \
   X(PathVertex, material) X(CompactVertex, ng) X(CompactVertex, beta)                     \
-  X(FilmPixel, block) X(FilmPixel, square) X(FilmPixel, count)                           \
+  X(FilmPixel, block) X(FilmPixel, square) X(FilmPixel, count) X(FilmPixel, peak)         \
+  X(PathEvent, partner) X(PathEvent, p) X(PathEvent, value) X(PathEvent, brought)         \
   X(AovPixel, normal) X(AovPixel, geometric) X(AovPixel, albedo) X(AovPixel, id)
 // clang-format on
 

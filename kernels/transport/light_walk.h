@@ -69,7 +69,8 @@ INLINE int light_walk_next(PRIVATE const SceneData* scene, Launch launch, PRIVAT
 typedef struct CameraLink {
   real3 value;  // radiance of the pixel that sees it, visibility still to be seen
   real weight;
-  Ray ray;  // for visibility
+  real pdf_w;  // with which the camera draws this direction [1/sr]
+  Ray ray;     // for visibility
 } CameraLink;
 
 /// For a vertex in front of the camera. 0 where nothing arrives.
@@ -87,6 +88,7 @@ INLINE int camera_link(PRIVATE const SceneData* scene, Launch launch, Camera cam
   real scale = pdf_w / (d2 * (real)launch.light_paths);
   link->value = w->walk.beta * e.f * (cos_wi * scale);
   link->weight = REAL(1.0);
+  link->pdf_w = pdf_w;
 #if INTG_CONNECT
   real cos_g = r_abs(dot3(v->surface.ng, wi));
   real reverse = vertex_pdf_reverse(scene, v, wi) * (real)v->material.survive;

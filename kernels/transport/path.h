@@ -33,12 +33,30 @@ INLINE real chance_weight(Launch launch, PRIVATE const Walk* walk, uint depth, r
 #endif
 }
 
-/// Adds what a path brought: `value` unweighted, found by strategy `s` (vertices drawn from the
-/// light's end) as a path of `depth` segments.
-INLINE void walk_gather(PRIVATE Walk* walk, real3 value, real weight, uint s, uint depth) {
-  walk->radiance += value * weight;
+/// Light that a walk found.
+typedef struct Found {
+  real3 value;  // unweighted
+  real weight;
+  uint s, depth;        // vertices drawn from the light's end; segments of the whole path
+  real3 p, wi;          // where it is (or nowhere: an environment), and its direction
+  real pdf_w, pdf_nee;  // densities [1/sr] of finding it by chance and by a light sample; 0: never
+} Found;
+
+/// Adds what a path brought.
+INLINE void walk_gather(PRIVATE const SceneData* scene, PRIVATE Walk* walk, Found found) {
+  real3 brought = found.value * found.weight;
+  walk->radiance += brought;
 #if INTG_LAYERS
-  layer_add(walk->layers, value, weight, s, depth);
+  layer_add(walk->layers, found.value, found.weight, found.s, found.depth);
+#endif
+#if INTG_RECORD
+  PathEvent e = record_event(scene, found.s ? EVENT_NEE : EVENT_EMISSION, found.depth - found.s);
+  e.s = found.s;
+  e.t = found.depth + 1u - found.s;
+  e.p = record_row(found.p, 0.0f);
+  e.d = record_row(found.wi, found.pdf_w);
+  e.value.w = (float)found.pdf_nee;
+  record_brought(scene, e, found.value, found.weight, brought);
 #endif
 }
 
@@ -48,8 +66,16 @@ INLINE void walk_escaped(PRIVATE const SceneData* scene, Launch launch, uint dep
 #if FEAT_LIGHT_ENVIRONMENT
   if (scene->info.environment == NONE) return;  // compiled in by --features only
   real pdf_light = light_pdf_environment(scene);
-  real w = chance_weight(launch, walk, depth, pdf_light, pdf_light * light_pdf_disc(scene));
-  walk_gather(walk, walk->beta * load3(scene->lights[scene->info.environment].value), w, 0u, depth);
+  Found found;
+  found.value = walk->beta * load3(scene->lights[scene->info.environment].value);
+  found.weight = chance_weight(launch, walk, depth, pdf_light, pdf_light * light_pdf_disc(scene));
+  found.s = 0u;
+  found.depth = depth;
+  found.p = walk->ray.o;
+  found.wi = walk->ray.d;
+  found.pdf_w = walk->pdf_w;
+  found.pdf_nee = pdf_light;
+  walk_gather(scene, walk, found);
 #endif
 }
 
@@ -67,8 +93,16 @@ INLINE void walk_emission(PRIVATE const SceneData* scene, Launch launch, PRIVATE
 #if INTG_PARTIALS
   emit = light_pdf_emit_surface(scene, s->light, s->flags);
 #endif
-  walk_gather(walk, walk->beta * emitted, chance_weight(launch, walk, depth, pdf_light, emit), 0u,
-              depth);
+  Found found;
+  found.value = walk->beta * emitted;
+  found.weight = chance_weight(launch, walk, depth, pdf_light, emit);
+  found.s = 0u;
+  found.depth = depth;
+  found.p = s->p;
+  found.wi = walk->ray.d;
+  found.pdf_w = walk->pdf_w;
+  found.pdf_nee = pdf_light;
+  walk_gather(scene, walk, found);
 #endif
 }
 
@@ -116,8 +150,16 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
   shadow.aim = light.aim;
   ++walk->rays;
   if (bvh_trace(scene, shadow, 1).prim != NONE) return;
-  real w = nee_weight(scene, launch, v, walk, &light, e);
-  walk_gather(walk, walk->beta * e.f * light.radiance * (cos_wi / light.pdf_w), w, 1u, bounce + 2u);
+  Found found;
+  found.value = walk->beta * e.f * light.radiance * (cos_wi / light.pdf_w);
+  found.weight = nee_weight(scene, launch, v, walk, &light, e);
+  found.s = 1u;
+  found.depth = bounce + 2u;
+  found.p = light.at_infinity ? shadow.o : light.target;
+  found.wi = light.wi;
+  found.pdf_w = light.delta ? REAL(0.0) : e.pdf_w * (real)v->material.survive;
+  found.pdf_nee = light.pdf_w;
+  walk_gather(scene, walk, found);
 #endif
 }
 
@@ -176,6 +218,7 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
 #if INTG_LAYERS
   walk.layers = layers;
 #endif
+  record_start(scene, camera_ray, pdf_camera, walk.beta);
 #if INTG_RADIUS
   walk.spread = REAL(1.0) / r_sqrt(pdf_camera);
 #endif
@@ -200,10 +243,12 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
     if (v.black) break;
     uint bounce = depth - 1u;
     walk_keep(store, launch, depth, &v, &walk);
+    walk_record(scene, depth, &v, &walk);
     if (!bsdf_is_delta(v.material)) walk_nee(scene, launch, rng, bounce, &v, &walk);
     int delta_only = walk_ends_spread(&v);
     if (delta_only && !bsdf_has_delta(v.material)) break;
     if (!walk_scatter(scene, launch, rng, DIM_BSDF(bounce), &v, &walk)) break;
+    record_scatter(scene, depth, walk.ray, walk.pdf_w, walk.beta);
     if (delta_only && walk.pdf_w > REAL(0.0)) break;
   }
   *rays = walk.rays;

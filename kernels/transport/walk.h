@@ -5,8 +5,7 @@
 
 #include "core/rng.h"
 #include "film/layers.h"
-#include "transport/partials.h"
-#include "transport/vertex.h"
+#include "transport/record.h"
 
 /// Emitters seen directly or through delta surfaces alone: what light tracing leaves to the camera.
 #define INTG_SEEN (INTG_SPLAT && !INTG_CONNECT)
@@ -82,6 +81,16 @@ INLINE void walk_leave(PRIVATE const SceneData* scene, Launch launch, PRIVATE co
 #endif
 }
 #endif
+
+/// Writes the vertex down that the walk has come to.
+INLINE void walk_record(PRIVATE const SceneData* scene, uint depth, PRIVATE const Vertex* v,
+                        PRIVATE const Walk* walk) {
+#if INTG_PARTIALS
+  record_vertex(scene, depth, v, walk->beta, walk->partials.dVCM, partials_dVC(walk->partials));
+#else
+  record_vertex(scene, depth, v, walk->beta, REAL(0.0), REAL(0.0));
+#endif
+}
 
 /// Scatters at the vertex: roulette by the material's own survival probability (local, so that a
 /// walk from the other end knows it too), then a direction by the numbers of `dimension`. 0 ends

@@ -17,6 +17,9 @@ FLAGS = re.findall(r"X\(((?:FEAT|INTG)_\w+),", (KERNELS / "shared/features.h").r
 EFFECTS = [f for f in FLAGS if f.startswith("FEAT_")]
 METHODS = [[], ["INTG_NEE", "INTG_SOBOL"], ["INTG_NEE", "INTG_MIS", "INTG_SOBOL", "INTG_FILTER"],
            ["INTG_NEE", "INTG_MIS", "INTG_LAYERS"],
+           ["INTG_NEE", "INTG_MIS", "INTG_RECORD"],
+           ["INTG_SPLAT", "INTG_RECORD", "INTG_FILTER"],
+           ["INTG_NEE", "INTG_MIS", "INTG_SPLAT", "INTG_CONNECT", "INTG_MERGE", "INTG_RECORD"],
            ["INTG_UNIFORM"], ["INTG_SPLAT", "INTG_LAYERS", "INTG_FILTER"],
            ["INTG_NEE", "INTG_MIS", "INTG_SPLAT", "INTG_CONNECT", "INTG_SOBOL", "INTG_FILTER"],
            ["INTG_NEE", "INTG_MIS", "INTG_SPLAT", "INTG_CONNECT", "INTG_COMPACT", "INTG_LAYERS"],

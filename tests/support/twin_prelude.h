@@ -54,6 +54,7 @@
 #define INTG_COMPACT 0
 #endif
 #define INTG_LAYERS 0
+#define INTG_RECORD 0
 #ifndef INTG_SOBOL
 #define INTG_SOBOL 0
 #endif

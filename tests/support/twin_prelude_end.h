@@ -28,6 +28,7 @@
 #undef INTG_CONNECT
 #undef INTG_FILTER
 #undef INTG_LAYERS
+#undef INTG_RECORD
 #undef INTG_MERGE
 #undef INTG_MIS
 #undef INTG_NEE

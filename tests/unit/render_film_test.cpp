@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -39,6 +40,8 @@ void add_pass(Film& film, std::uint64_t pass) {
       v.exponent -= lsb;
       wide_add(film.pixels[i].block[c], FILM_SUM_WORDS, wide_round(v));
     }
+    // A few values that come often: the first of equal ones must win in any order.
+    film_keep_peak(&film.pixels[i], std::floor(8 * sample(pass, i, 0)), uint(pass));
     ++film.pixels[i].count[0];
     film.pixels[i].count[1] += 7;
   }
