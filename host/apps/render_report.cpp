@@ -119,7 +119,8 @@ const char* mis_name(uint mis) {
 
 Evidence lasting_evidence(const RenderFacts& f) {
   Evidence meta;
-  const Camera& camera = f.scene->camera;
+  Camera camera = f.scene->camera;
+  camera.origin += f.scene->origin;
   const glm::dmat4 to_camera = world_to_camera(camera);
   meta["worldToCamera"] = row_vector_matrix(to_camera);
   meta["worldToNDC"] = row_vector_matrix(

@@ -2,6 +2,7 @@
 #include "render/aov.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "base/error.h"
@@ -88,6 +89,16 @@ std::optional<std::vector<AovPixel>> AovPass::run(Launch launch, uint iterations
   return tile;
 }
 
+/// Positions in coordinates of the scene's file.
+void move_back(const std::array<double, 3>& origin, std::vector<AovPixel>& tile) {
+  if (origin == std::array<double, 3>{}) return;
+  for (AovPixel& pixel : tile) {
+    if (pixel.id.x == NONE) continue;  // nothing there: 0
+    F4& p = pixel.position;
+    p.x = float(p.x + origin[0]), p.y = float(p.y + origin[1]), p.z = float(p.z + origin[2]);
+  }
+}
+
 /// Appends a tile to the channels of all that was asked for.
 void append_tile(const std::vector<AovInfo>& asked, const std::vector<AovPixel>& tile,
                  uint iterations, std::vector<AovChannel>& channels) {
@@ -161,8 +172,9 @@ std::optional<std::vector<AovChannel>> render_aovs(Device device, const PackedSc
   launch.seed = hash_seed(options.seed);
   for (const Window& tile : memory.tiles) {  // bands of rows, from the top
     set_tile(launch, tile);
-    const auto pixels = pass.run(launch, iterations, stop);
+    auto pixels = pass.run(launch, iterations, stop);
     if (!pixels) return std::nullopt;
+    move_back(scene.origin, *pixels);
     append_tile(asked, *pixels, iterations, channels);
   }
   pass.collect(counters);

@@ -102,6 +102,17 @@ JsonNode read_document(const std::string& path, const LoadOptions& options, Scen
   return root;
 }
 
+/// Camera and lamps, as place_shapes() does with shapes.
+void place_points(Scene& scene) {
+  scene.camera.origin -= scene.origin;
+  for (Light& light : scene.lights)
+    if (PointLight* point = std::get_if<PointLight>(&light)) {
+      point->position -= scene.origin;
+    } else if (SpotLight* spot = std::get_if<SpotLight>(&light)) {
+      spot->position -= scene.origin;
+    }
+}
+
 }  // namespace
 
 Scene load_scene(const std::string& path, const LoadOptions& options) {
@@ -120,12 +131,15 @@ Scene load_scene(const std::string& path, const LoadOptions& options) {
   if (!bare) scene.camera = parse_camera(reader.value("camera"));
   parse_materials(reader.value("materials"), builder);
   if (bare) builder.bare_material = bare_material(builder);
-  for (const JsonNode& node : reader.value("shapes").items) parse_shape(node, builder);
+  const JsonNode shapes = reader.value("shapes");
+  for (const JsonNode& node : shapes.items) parse_shape(node, builder);
+  place_shapes(builder);
   if (bare) {
     complete_bare_model(scene, root);
     scene.camera = parse_camera(reader.value("camera"));
   }
   parse_lights(reader.value("lights"), scene);
+  place_points(scene);
   finish_warnings(builder);
   return std::move(builder.scene);
 }
