@@ -233,11 +233,14 @@ nlohmann::json render_stats(const RenderFacts& f) {
     const auto same = std::find_if(passes.begin(), passes.end(),
                                    [&](const json& row) { return row["name"] == p.pass.name; });
     if (same == passes.end()) {
-      passes.push_back(
-          {{"name", p.pass.name}, {"seconds", p.time->seconds}, {"launches", p.time->launches}});
+      passes.push_back({{"name", p.pass.name},
+                        {"seconds", p.time->seconds},
+                        {"launches", p.time->launches},
+                        {"longest", p.time->longest}});
     } else {  // a kernel that runs more than once in an iteration
       (*same)["seconds"] = (*same)["seconds"].get<double>() + p.time->seconds;
       (*same)["launches"] = (*same)["launches"].get<std::uint64_t>() + p.time->launches;
+      (*same)["longest"] = std::max((*same)["longest"].get<double>(), p.time->longest);
     }
   }
   double in_passes = 0;

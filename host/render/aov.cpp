@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 
 #include "base/error.h"
 #include "render/launch.h"
+#include "render/launch_parts.h"
 
 namespace pellucid {
 namespace {
@@ -51,6 +53,8 @@ class AovPass {
   Kernel kernel_;
   std::size_t group_ = 1;
   unsigned launch_index_ = 0;
+  LaunchParts parts_;
+  std::shared_ptr<PassTime> time_ = std::make_shared<PassTime>();
 };
 
 AovPass::AovPass(Device device, const PackedScene& scene, const PlanOptions& options,
@@ -79,9 +83,9 @@ std::optional<std::vector<AovPixel>> AovPass::run(Launch launch, uint iterations
                                                   const std::function<bool()>& stop) {
   const std::size_t pixels = std::size_t(launch.tile_width) * launch.tile_height;
   for (launch.iteration = 0; launch.iteration < iterations; ++launch.iteration) {
-    kernel_.set_bytes(launch_index_, &launch, sizeof launch);
-    device_.launch(kernel_, pixels, group_, nullptr);
+    parts_.enqueue(device_, kernel_, launch_index_, launch, pixels, group_, time_);
     device_.finish();  // or all would be queued before anybody could say stop
+    parts_.learn(*time_);
     if (stop && stop()) return std::nullopt;
   }
   std::vector<AovPixel> tile(pixels);

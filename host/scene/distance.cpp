@@ -38,8 +38,9 @@ std::string distance_warning(const Scene& scene) {
     if (!(rounding(b) > most)) continue;
     most = rounding(b);
     worst = fmt::format(
-        "{} is {} the scene's middle, where positions are rounded by up to {:.2g} % of that size; "
-        "what lies far apart is better rendered as scenes of its own",
+        "{} is {} where the scene's coordinates are counted from, so that they are rounded by up "
+        "to "
+        "{:.2g} % of its size; what lies far apart is better rendered as scenes of its own",
         shape.name, figures(b), 100 * most);
   }
   return worst;

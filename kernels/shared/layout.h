@@ -183,8 +183,8 @@ typedef struct Launch {
   int film_lsb;                  // exponent of the film's step: sums count multiples of 2^film_lsb
   uint block_ends;               // 1: this iteration completes its block
   uint layer_set;                // layers that are kept apart (shared/layers.h)
-  uint pad0;
-  uint window_x, window_y;            // the rendered part of the picture: tiles are parts of it
+  uint item_first;               // work-items of the pass that earlier launches have done
+  uint window_x, window_y;       // the rendered part of the picture: tiles are parts of it
   uint window_width, window_height;   // pixels
   uint slice_first, slice_count;      // pixels of the tile that passes over slices are about
   uint light_paths;                   // of an iteration, for the whole picture
