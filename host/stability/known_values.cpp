@@ -85,7 +85,26 @@ void light_through_glass_is_found_or_told(const Lab& lab, Findings& findings) {
   }
 }
 
+/// CF4 with a light of side 0.02, 1 above the floor and turned until it is seen all but edge-on.
+void measure_edge_on(const Lab& lab, Findings& findings) {
+  constexpr double size = 0.01, angle = 89.99 * pi / 180;
+  Scene scene = lab.open_scene("rectangle-light");
+  Shape& light = shape_named(scene, "light");
+  std::vector<glm::dvec3> corners;
+  for (glm::vec3& p : std::get<Mesh>(light.geometry).positions) {
+    p = {size * p.x, 1 - size * p.z * std::sin(angle), size * p.z * std::cos(angle)};
+    corners.emplace_back(p);  // rounded: that turns it by a thousandth of what is left
+  }
+  light.emission->radiance /= size * size;
+  scene.camera.fov = 2e-4;  // the value doubles within a ten-thousandth of a radian
+  const double value = polygon_form_factor({0, 0, 0}, {0, 1, 0}, corners) / (size * size);
+  for (const char* method : {"nee", "path", "bdpt"})
+    compare(lab, findings, fmt::format("panel turned by 89.99 degrees, {}", method),
+            measured_mean(lab, scene, {method, 16, 16}, {}), value, 2e-3);
+}
+
 void small_lights_keep_their_power(const Lab& lab, Findings& findings) {
+  measure_edge_on(lab, findings);
   const double value = 16 * 0.0447214;  // CF5 beside the light, at constant Le R^2
   for (const char* method : {"nee", "path", "bdpt"})
     for (int e = 1; e <= 6; ++e) {
@@ -132,7 +151,7 @@ void roughness_goes_to_zero_smoothly(const Lab& lab, Findings& findings) {
 void panes_let_through_what_they_must(const Lab& lab, Findings& findings) {
   constexpr uint depth = 1000;  // light that enters a pane by its edges never leaves it again
   for (int degrees : {0, 45, 60, 80})
-    for (const char* method : {"path", "bdpt", "vcm"}) {
+    for (const char* method : {"path", "bdpt", "sppm", "vcm"}) {
       const Scene scene =
           lab.open_scene(degrees ? "slab-" + std::to_string(degrees) : std::string("slab"));
       compare(lab, findings, fmt::format("pane at {} degrees, {}", degrees, method),
