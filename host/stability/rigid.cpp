@@ -102,6 +102,34 @@ void measure_loading(const Lab& lab, Findings& findings) {
   findings.require("a warning of what lies 1e6 sizes apart", !distance_warning(both).empty());
 }
 
+/// The flux of a panel of radiance 1 [CF11, CF8]: in a shell of radius R and albedo rho around it,
+/// light that was reflected is the same everywhere, rho^2 flux / (4 pi^2 R^2 (1 - rho)).
+void measure_flux(const Lab& lab, Findings& findings) {
+  constexpr double rho = 0.5, side = 0.03, pi = 3.14159265358979323846;
+  Scene scene = empty_scene(rho);
+  add_shape(scene, Sphere{});
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].reflectance = Rgb(0.0);
+  Shape& panel = add_shape(scene, baked(make_rectangle({-0.4, 0, 0}, {side, 0, 0}, {0, side, 0})));
+  panel.material = 1;
+  panel.emission = Emission{};
+  for (int sides : {1, 2})
+    for (double mirror : {1.0, -1.0})
+      for (const char* method : {"path", "bdpt"}) {
+        scene.shapes[1].emission->sides = sides;
+        const Scene there = moved(scene, {1, 1, mirror}, 0);
+        const Estimate all = measured_mean(lab, there, {method, 16, 16}, {});
+        const Estimate direct =
+            measured_mean(lab, there, {method, 16, 16}, {64, 2, 2u, MIS_BALANCE});
+        compare(lab, findings,
+                fmt::format("flux of a panel of {} sides{}, {}", sides,
+                            mirror < 0 ? ", mirrored" : "", method),
+                {all.mean - direct.mean, all.variance + direct.variance},
+                rho * rho * sides * pi * side * side / (4 * pi * pi * (1 - rho)), 1e-3,
+                2 * usual_resolution);
+      }
+}
+
 }  // namespace
 
 void far_away_is_as_near(const Lab& lab, Findings& findings) {
@@ -116,6 +144,7 @@ void far_away_is_as_near(const Lab& lab, Findings& findings) {
 }
 
 void mirrored_is_the_same(const Lab& lab, Findings& findings) {
+  measure_flux(lab, findings);
   const Scene here = lab.open_scene("equal-lights");
   for (const char* method : {"path", "bdpt"}) {
     const std::array<Estimate, 3> plain = means(lab, here, method);
