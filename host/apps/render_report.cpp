@@ -119,7 +119,8 @@ const char* mis_name(uint mis) {
 
 Evidence lasting_evidence(const RenderFacts& f) {
   Evidence meta;
-  const Camera& camera = f.scene->camera;
+  Camera camera = f.scene->camera;
+  camera.origin += f.scene->origin;
   const glm::dmat4 to_camera = world_to_camera(camera);
   meta["worldToCamera"] = row_vector_matrix(to_camera);
   meta["worldToNDC"] = row_vector_matrix(
@@ -232,11 +233,14 @@ nlohmann::json render_stats(const RenderFacts& f) {
     const auto same = std::find_if(passes.begin(), passes.end(),
                                    [&](const json& row) { return row["name"] == p.pass.name; });
     if (same == passes.end()) {
-      passes.push_back(
-          {{"name", p.pass.name}, {"seconds", p.time->seconds}, {"launches", p.time->launches}});
+      passes.push_back({{"name", p.pass.name},
+                        {"seconds", p.time->seconds},
+                        {"launches", p.time->launches},
+                        {"longest", p.time->longest}});
     } else {  // a kernel that runs more than once in an iteration
       (*same)["seconds"] = (*same)["seconds"].get<double>() + p.time->seconds;
       (*same)["launches"] = (*same)["launches"].get<std::uint64_t>() + p.time->launches;
+      (*same)["longest"] = std::max((*same)["longest"].get<double>(), p.time->longest);
     }
   }
   double in_passes = 0;

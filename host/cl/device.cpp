@@ -195,7 +195,10 @@ void Device::finish() {
     for (auto& [event, time] : impl_->pending) {
       const auto start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
       const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-      time->seconds += 1e-9 * static_cast<double>(end - start);
+      const double seconds = 1e-9 * static_cast<double>(end - start);
+      time->seconds += seconds;
+      time->longest = std::max(time->longest, seconds);
+      time->longest_lately = std::max(time->longest_lately, seconds);
       ++time->launches;
     }
     impl_->pending.clear();

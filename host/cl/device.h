@@ -35,6 +35,7 @@ int device_cores(const DeviceInfo& device);
 /// Seconds that the device itself spent in launches of one pass.
 struct PassTime {
   double seconds = 0;
+  double longest = 0, longest_lately = 0;  ///< of one launch; whoever reads the latter clears it
   std::uint64_t launches = 0;
 };
 

@@ -49,6 +49,7 @@ PackedScene pack_scene(const Scene& scene, const PackOptions& options) {
   pack_bvh(out);
   pack_lights(scene, out);
   pack_filter(scene, out);
+  out.origin = {scene.origin.x, scene.origin.y, scene.origin.z};
   out.camera = pack_camera(scene.camera, scene.settings.width, scene.settings.height);
   never_empty(out.nodes), never_empty(out.leaves), never_empty(out.leaf_prims);
   never_empty(out.quadrics), never_empty(out.triangles), never_empty(out.positions);

@@ -2,6 +2,7 @@
 // Testable without a device.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,10 @@ struct PackedScene {
   std::vector<float> filter_values;  ///< the same
   SceneInfo info{};
   ::Camera camera{};
-  FeatureSet features;          ///< what the scene needs
-  int brightness_exponent = 0;  ///< 2^it is at least the radiance of the brightest light
-  double light_power = 0;       ///< of all lights [W], the mean of the channels
+  std::array<double, 3> origin{};  ///< that coordinates are counted from, in those of the file
+  FeatureSet features;             ///< what the scene needs
+  int brightness_exponent = 0;     ///< 2^it is at least the radiance of the brightest light
+  double light_power = 0;          ///< of all lights [W], the mean of the channels
   int simd_width = 8;
   uint stack_bound = 0;  ///< traversal stack entries needed
   bvh::Statistics bvh;

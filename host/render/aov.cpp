@@ -2,10 +2,13 @@
 #include "render/aov.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <memory>
 
 #include "base/error.h"
 #include "render/launch.h"
+#include "render/launch_parts.h"
 
 namespace pellucid {
 namespace {
@@ -50,6 +53,8 @@ class AovPass {
   Kernel kernel_;
   std::size_t group_ = 1;
   unsigned launch_index_ = 0;
+  LaunchParts parts_;
+  std::shared_ptr<PassTime> time_ = std::make_shared<PassTime>();
 };
 
 AovPass::AovPass(Device device, const PackedScene& scene, const PlanOptions& options,
@@ -78,14 +83,24 @@ std::optional<std::vector<AovPixel>> AovPass::run(Launch launch, uint iterations
                                                   const std::function<bool()>& stop) {
   const std::size_t pixels = std::size_t(launch.tile_width) * launch.tile_height;
   for (launch.iteration = 0; launch.iteration < iterations; ++launch.iteration) {
-    kernel_.set_bytes(launch_index_, &launch, sizeof launch);
-    device_.launch(kernel_, pixels, group_, nullptr);
+    parts_.enqueue(device_, kernel_, launch_index_, launch, pixels, group_, time_);
     device_.finish();  // or all would be queued before anybody could say stop
+    parts_.learn(*time_);
     if (stop && stop()) return std::nullopt;
   }
   std::vector<AovPixel> tile(pixels);
   device_.read(buffers_.at("aovs"), tile.data(), pixels * sizeof(AovPixel));
   return tile;
+}
+
+/// Positions in coordinates of the scene's file.
+void move_back(const std::array<double, 3>& origin, std::vector<AovPixel>& tile) {
+  if (origin == std::array<double, 3>{}) return;
+  for (AovPixel& pixel : tile) {
+    if (pixel.id.x == NONE) continue;  // nothing there: 0
+    F4& p = pixel.position;
+    p.x = float(p.x + origin[0]), p.y = float(p.y + origin[1]), p.z = float(p.z + origin[2]);
+  }
 }
 
 /// Appends a tile to the channels of all that was asked for.
@@ -161,8 +176,9 @@ std::optional<std::vector<AovChannel>> render_aovs(Device device, const PackedSc
   launch.seed = hash_seed(options.seed);
   for (const Window& tile : memory.tiles) {  // bands of rows, from the top
     set_tile(launch, tile);
-    const auto pixels = pass.run(launch, iterations, stop);
+    auto pixels = pass.run(launch, iterations, stop);
     if (!pixels) return std::nullopt;
+    move_back(scene.origin, *pixels);
     append_tile(asked, *pixels, iterations, channels);
   }
   pass.collect(counters);

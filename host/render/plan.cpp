@@ -133,6 +133,7 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
     state.kernel = device_.build(pass.name, files.expand("passes/" + pass.name + ".cl", prelude),
                                  options_of(specialisation_));
     state.group = group_for_pass(pass, state.kernel, options_.group);
+    state.parts = LaunchParts(options_.launch_items);
     bind(state);
     passes_.push_back(std::move(state));
   }
@@ -187,9 +188,17 @@ std::size_t domain_size(Domain domain, const Launch& launch, std::size_t group) 
 
 void Plan::launch(PassState& state, Launch launch) {
   launch.digit = state.pass.digit;
-  state.kernel.set_bytes(state.launch_index, &launch, sizeof launch);
-  device_.launch(state.kernel, domain_size(state.pass.domain, launch, state.group), state.group,
-                 state.time);
+  const std::size_t items = domain_size(state.pass.domain, launch, state.group);
+  // Scans and sorts are one launch: few work-items, and each knows its group.
+  const bool whole = state.pass.domain == Domain::blocks || state.pass.domain == Domain::sides;
+  LaunchParts one(items);
+  (whole ? one : state.parts)
+      .enqueue(device_, state.kernel, state.launch_index, launch, items, state.group, state.time);
+}
+
+void Plan::finish() {
+  device_.finish();
+  for (PassState& state : passes_) state.parts.learn(*state.time);
 }
 
 PassState& Plan::pass_named(const std::string& name) {

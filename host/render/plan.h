@@ -15,6 +15,7 @@
 #include "render/film.h"
 #include "render/integrator.h"
 #include "render/launch.h"
+#include "render/launch_parts.h"
 #include "render/memory.h"
 #include "render/options.h"
 #include "render/specialise.h"
@@ -41,6 +42,7 @@ struct PassState {
   Kernel kernel;
   std::size_t group = 1;      ///< work-items per group
   unsigned launch_index = 0;  ///< parameter index of the launch struct
+  LaunchParts parts;
   std::shared_ptr<PassTime> time = std::make_shared<PassTime>();
 };
 
@@ -64,7 +66,7 @@ class Plan {
   /// Enqueues one iteration over the launch's tile; methods that store vertices wait for parts of
   /// it. Throws DeviceError where those of one row of pixels exceed memory.
   void enqueue(Launch launch);
-  void finish() { device_.finish(); }
+  void finish();
 
   /// The first `pixels` of the tile's film.
   void read_film(FilmPixel* film, std::size_t pixels);

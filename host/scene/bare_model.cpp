@@ -148,8 +148,8 @@ View add_camera(Scene& scene, JsonNode& camera) {
   const auto set = [&](const char* key, const glm::dvec3& v) {
     member(camera, key) = parse_addition(fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x, v.y, v.z));
   };
-  if (!own_origin) set("origin", frame.origin);
-  if (!own_target) set("target", frame.target);
+  if (!own_origin) set("origin", frame.origin + scene.origin);
+  if (!own_target) set("target", frame.target + scene.origin);
   const glm::dvec3 o = reader.vector("origin"), t = reader.vector("target");
   scene.notes.push_back(fmt::format(
       "{}: camera at [{:.6g}, {:.6g}, {:.6g}] looks at [{:.6g}, {:.6g}, {:.6g}], field of view "

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "scene/bare_model.h"
+#include "scene/coarse_normals.h"
 #include "scene/coplanar.h"
 #include "scene/distance.h"
 #include "scene/model.h"
@@ -85,6 +86,8 @@ void finish_warnings(SceneBuilder& builder) {
   for (const auto warning :
        {distance_warning, coplanar_warning, needle_warning, thin_glass_warning})
     if (std::string text = warning(scene); !text.empty()) scene.warnings.push_back(std::move(text));
+  if (std::string text = coarse_normals_note(scene); !text.empty())
+    scene.notes.push_back(std::move(text));
 }
 
 /// The document of a scene or of a bare model, with what the command line changes.
@@ -100,6 +103,17 @@ JsonNode read_document(const std::string& path, const LoadOptions& options, Scen
   for (const std::string& definition : options.overrides) apply_override(root, definition);
   builder.scene.overrides = options.overrides;
   return root;
+}
+
+/// Camera and lamps, as place_shapes() does with shapes.
+void place_points(Scene& scene) {
+  scene.camera.origin -= scene.origin;
+  for (Light& light : scene.lights)
+    if (PointLight* point = std::get_if<PointLight>(&light)) {
+      point->position -= scene.origin;
+    } else if (SpotLight* spot = std::get_if<SpotLight>(&light)) {
+      spot->position -= scene.origin;
+    }
 }
 
 }  // namespace
@@ -120,12 +134,15 @@ Scene load_scene(const std::string& path, const LoadOptions& options) {
   if (!bare) scene.camera = parse_camera(reader.value("camera"));
   parse_materials(reader.value("materials"), builder);
   if (bare) builder.bare_material = bare_material(builder);
-  for (const JsonNode& node : reader.value("shapes").items) parse_shape(node, builder);
+  const JsonNode shapes = reader.value("shapes");
+  for (const JsonNode& node : shapes.items) parse_shape(node, builder);
+  place_shapes(builder);
   if (bare) {
     complete_bare_model(scene, root);
     scene.camera = parse_camera(reader.value("camera"));
   }
   parse_lights(reader.value("lights"), scene);
+  place_points(scene);
   finish_warnings(builder);
   return std::move(builder.scene);
 }

@@ -18,6 +18,8 @@
 namespace pellucid {
 namespace {
 
+static_assert(sizeof(tinyobj::real_t) == sizeof(double), "far models lose their digits in floats");
+
 constexpr const char* remedy =
     "; give the file, or give the shape a \"material\", which replaces those of the model";
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "scene/distance.h"
 #include "scene/generate.h"
 #include "scene/model.h"
 #include "scene/parse.h"
@@ -43,19 +44,11 @@ ShapeParts parse_common(const ObjectReader& reader, const SceneBuilder& builder,
   return parts;
 }
 
-/// Adds the shape after the checks that every mesh has to pass.
+/// Adds the shape, for now without its triangles.
 void add_mesh(const ObjectReader& reader, ShapeParts parts, RawMesh raw, SceneBuilder& builder) {
   if (!textured(builder.scene, parts.shape)) raw.uvs = {};
-  BakedMesh baked = bake_mesh(std::move(raw), parts.transform, parts.flip);
-  if (!baked.finite)
-    fail(reader.node(), fmt::format("{} reaches beyond coordinates of {:g}; scale it down",
-                                    parts.shape.name, largest_length));
-  if (baked.mesh.triangles.empty())
-    fail(reader.node(), fmt::format("{} has no triangle with an area", parts.shape.name));
-  if (baked.dropped > 0)
-    builder.scene.warnings.push_back(fmt::format("{}: {} triangles without area were left out",
-                                                 parts.shape.name, baked.dropped));
-  parts.shape.geometry = std::move(baked.mesh);
+  builder.unplaced.push_back(
+      {&reader.node(), builder.scene.shapes.size(), std::move(raw), parts.transform, parts.flip});
   builder.scene.shapes.push_back(std::move(parts.shape));
 }
 
@@ -209,6 +202,8 @@ void parse_mesh_file(const ObjectReader& reader, const ShapeParts& parts, SceneB
            fmt::format("the material has a texture, but {} of '{}' has faces without texture "
                        "coordinates (vt)",
                        piece.shape.name, file.string()));
+    if (std::string text = rounded_file_warning(piece.shape.name, part.mesh); !text.empty())
+      builder.scene.warnings.push_back(std::move(text));
     if (!reader.has("emission") && part.emission) piece.shape.emission = useful(*part.emission);
     add_mesh(reader, std::move(piece), std::move(part.mesh), builder);
   }

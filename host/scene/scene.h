@@ -161,6 +161,9 @@ struct Scene {
   std::string name;         ///< file name without folder and suffix
   std::string path;         ///< as opened
   std::string description;  ///< the file's "description": why the scene is here
+  /// Where coordinates are counted from, in those of the file. Not 0 where the scene lies so far
+  /// away that floats would round it visibly: then near its middle.
+  glm::dvec3 origin{0.0};
   Camera camera;
   RenderSettings settings;
   std::vector<Material> materials;
@@ -169,7 +172,7 @@ struct Scene {
   std::vector<Shape> shapes;
   std::vector<Light> lights;
   std::vector<std::string> warnings;   ///< what was asked for and is not there yet, once per kind
-  std::vector<std::string> notes;      ///< what was decided for a bare model
+  std::vector<std::string> notes;      ///< what was decided for the user
   std::vector<SourceFile> files;       ///< every file read, for the identity hash
   std::vector<std::string> overrides;  ///< of the command line, as given, for the identity hash
 };

@@ -11,6 +11,7 @@
 
 #include "scene/coplanar.h"
 #include "stability/estimates.h"
+#include "stability/exact.h"
 #include "stability/measurements.h"
 #include "stability/small_scenes.h"
 
@@ -33,10 +34,33 @@ Scene under_ceiling(const Scene& plain, int ulps, bool first) {
   return scene;
 }
 
+/// Every face that gives no light, twice.
+Scene doubled(Scene scene) {
+  for (Shape& shape : scene.shapes) {
+    Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+    if (!mesh || shape.emission) continue;
+    const std::vector<glm::uvec3> once = mesh->triangles;
+    mesh->triangles.insert(mesh->triangles.end(), once.begin(), once.end());
+  }
+  return scene;
+}
+
+void measure_doubles(const Lab& lab, Findings& findings) {
+  const Scene scene = lab.open_scene("equal-shading");
+  for (const char* method : {"path", "light", "bdpt", "vcm"}) {
+    const auto film = [&](const Scene& of) {
+      return session_render(lab, of, build_of(method), short_run).film;
+    };
+    findings.none(fmt::format("pixels that differ with all faces twice, {}", method),
+                  different_pixels(film(scene), film(doubled(scene))));
+  }
+}
+
 }  // namespace
 
 void coplanar_faces_do_no_harm(const Lab& lab, Findings& findings) {
   lowest_of_duplicates_wins(lab, findings, {});
+  measure_doubles(lab, findings);
   const Scene plain = lab.open_scene("rectangle-light");
   // Nearer than 16 roundoffs of the ceiling, 40 ulps, the one or the other is hit, and loading
   // warns of it.

@@ -3,35 +3,17 @@
 //
 // EXR is written in 32-bit floats, whatever is in it; the sRGB curve is applied once, in one place
 // (image/tonemap.cpp). This case asks nothing of the device.
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 
 #include "image/image.h"
 #include "image/tonemap.h"
 #include "stability/measurements.h"
+#include "stability/temporary_file.h"
 
 namespace pellucid::stability {
 namespace {
-
-/// A file that vanishes at the end of the scope.
-struct TemporaryFile {
-  explicit TemporaryFile(const char* suffix)
-      : path((std::filesystem::temp_directory_path() /
-              fmt::format("pellucid-stability-{}{}", getpid(), suffix))
-                 .string()) {}
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  std::string path;
-};
 
 Image ramp(int n, double (*value)(double t)) {
   Image image;

@@ -49,6 +49,8 @@ void splats_fall_where_rays_come_from(const Lab& lab, Findings& findings);
 void sums_never_stall(const Lab& lab, Findings& findings);
 // noise.cpp: 23
 void noise_is_independent(const Lab& lab, Findings& findings);
+// explained.cpp: 25
+void faults_are_named(const Lab& lab, Findings& findings);
 // degenerate.cpp: 26
 void degenerate_triangles_do_no_harm(const Lab& lab, Findings& findings);
 // coplanar.cpp: 27
@@ -57,10 +59,14 @@ void coplanar_faces_do_no_harm(const Lab& lab, Findings& findings);
 void traversal_misses_nothing(const Lab& lab, Findings& findings);
 // quadrics.cpp: 29
 void spheres_stay_round(const Lab& lab, Findings& findings);
+// frames.cpp: 33
+void frames_and_directions_do_not_drift(const Lab& lab, Findings& findings);
 // extreme_cameras.cpp: 35
 void cameras_keep_their_rays(const Lab& lab, Findings& findings);
 // image_files.cpp: 36
 void files_keep_values(const Lab& lab, Findings& findings);
+// hangs.cpp: 37
+void everything_ends(const Lab& lab, Findings& findings);
 // many_lights.cpp: 38
 void lights_add_up(const Lab& lab, Findings& findings);
 

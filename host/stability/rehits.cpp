@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "shared/limits.h"
 #include "stability/measurements.h"
@@ -241,6 +242,39 @@ void measure_floors(const Lab& lab, Findings& findings) {
   }
 }
 
+/// The far end of shadow rays: pixels of a shell that a small lamp about the origin lights but for
+/// what ends on the lamp itself. Its coordinates are small, their roundoffs next to nothing.
+std::size_t dark_pixels(const Lab& lab, const glm::dvec3& normal, double size, double radius) {
+  const glm::dvec3 n = glm::normalize(normal), s = glm::normalize(glm::cross(n, {0.3, 1, 0.2}));
+  const glm::dvec3 t = glm::cross(n, s);
+  Scene scene = empty_scene();
+  Sphere shell;
+  shell.radius = radius;
+  add_shape(scene, shell);
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].reflectance = Rgb(0.0);
+  Shape& lamp = add_shape(scene, baked(make_rectangle(-0.5 * size * (s + t), size * s, size * t)));
+  lamp.material = 1;
+  lamp.emission = Emission{};
+  scene.camera.origin = 0.3 * radius * n;
+  scene.camera.forward = n, scene.camera.right = s, scene.camera.up = glm::cross(s, n);
+  scene.camera.fov = 150;
+  const auto side = int(256 * std::sqrt(lab.effort));
+  std::size_t dark = 0;
+  for (const auto& p :
+       Renderer(lab, scene, {"nee", side, side}).render({1, 1, 2, MIS_BALANCE}).pixels)
+    dark += p[0].mean == 0;
+  return dark;
+}
+
+void measure_lamps(const Lab& lab, Findings& findings) {
+  std::size_t dark = 0;
+  for (const glm::dvec3& n : {glm::dvec3(0, 0, 1), glm::dvec3(1, 2, 3), glm::dvec3(-3, 1, 0.2)})
+    for (const auto& [size, radius] : {std::pair(0.03, 1.0), {1.0, 100.0}, {1e-4, 1.0}})
+      dark += dark_pixels(lab, n, size, radius);
+  findings.none("shadow rays that end on the lamp they are sent to, of 6e5", dark);
+}
+
 }  // namespace
 
 void spawned_rays_leave(const Lab& lab, Findings& findings) {
@@ -262,6 +296,7 @@ void spawned_rays_leave(const Lab& lab, Findings& findings) {
         worst = std::max(worst, smallest_gap(planes, lab.count(3000), f, P, cell));
     findings.at_most(std::string("g_min in ulp(P), ") + f.name, worst, 64);
   }
+  measure_lamps(lab, findings);
   measure_floors(lab, findings);
 }
 

@@ -32,6 +32,7 @@ PlanOptions plan_options(const Lab& lab, const Build& build) {
   o.vertices_per_path = build.vertices_per_path;
   o.int64_atomics = build.int64_atomics;
   o.float_mode = build.float_mode;
+  o.launch_items = build.launch_items;
   o.kernel_dir = lab.kernel_dir;
   return o;
 }

@@ -36,6 +36,7 @@ struct Build {
   std::optional<std::uint64_t> growth =
       {};  ///< most bytes of the device beyond what is planned at first
   FloatMode float_mode = FloatMode::strict;
+  std::size_t launch_items = 0;  ///< work-items of a launch; 0: as many as are quick enough
 };
 
 /// Mean and variance of that mean.

@@ -38,7 +38,7 @@ INLINE void aov_add(PRIVATE const SceneData* scene, Ray ray, PRIVATE AovPixel* a
 }
 
 __kernel void aov(SCENE_PARAMS FILTER_PARAMS AOV_PARAMS DIAG_PARAMS const Launch launch) {
-  uint pixel = (uint)get_global_id(0);
+  uint pixel = work_item(launch);
   if (pixel >= launch.tile_width * launch.tile_height) return;
   SCENE_FROM_PARAMS
   TileSample s = tile_sample(launch, camera, filter_table, pixel);

@@ -31,6 +31,11 @@
 #endif
 
 #define SCENE_ASSIGN(T, name, meaning) scene_data.name = name;
+/// The work-item's number in its pass, of which this launch is a part.
+INLINE uint work_item(Launch launch) {
+  return launch.item_first + (uint)get_global_id(0);
+}
+
 /// Declares `scene_data` from the kernel's parameters.
 #define SCENE_FROM_PARAMS     \
   SceneData scene_data;       \

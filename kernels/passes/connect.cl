@@ -11,7 +11,7 @@ __kernel void connect(SCENE_PARAMS FILM_PARAMS LIGHT_VERTEX_PARAMS EYE_VERTEX_PA
                           LAYER_PARAMS
 #endif
                               RECORD_PARAMS DIAG_PARAMS const Launch launch) {
-  uint index = (uint)get_global_id(0);
+  uint index = work_item(launch);
   if (index >= launch.slice_count) return;
   SCENE_FROM_PARAMS
   uint pixel = launch.slice_first + index;

@@ -9,7 +9,7 @@ __kernel void film_add(FILM_PARAMS
                            SPLAT_PARAMS
 #endif
                                DIAG_PARAMS const Launch launch) {
-  uint pixel = (uint)get_global_id(0);
+  uint pixel = work_item(launch);
   if (pixel >= launch.tile_width * launch.tile_height) return;
   F4 sample = samples[pixel];
 #if INTG_SPLAT || INTG_MERGE

@@ -8,7 +8,7 @@
 
 #if INTG_MERGE
 __kernel void grid_keys(LIGHT_VERTEX_PARAMS GRID_PARAMS const Launch launch) {
-  uint i = (uint)get_global_id(0);
+  uint i = work_item(launch);
   if (i < 1u << launch.grid_bits) grid_cells[2 * i] = grid_cells[2 * i + 1u] = 0u;
   if (i >= launch.photon_count) return;
   __global const StoredVertex* vertices = (__global const StoredVertex*)light_vertices;

@@ -7,7 +7,7 @@
 
 #if INTG_MERGE
 __kernel void grid_ranges(LIGHT_VERTEX_PARAMS GRID_PARAMS const Launch launch) {
-  uint i = (uint)get_global_id(0);
+  uint i = work_item(launch);
   if (i >= launch.photon_count) return;
   __global const uint* pairs = grid_pairs;
   uint key = pairs[2 * (size_t)i];

@@ -78,7 +78,7 @@ __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
                                   LAYER_PARAMS
 #endif
                                       RECORD_PARAMS DIAG_PARAMS const Launch launch) {
-  uint index = (uint)get_global_id(0);
+  uint index = work_item(launch);
   if (index >= launch.path_count) return;
   SCENE_FROM_PARAMS
   Rng rng;

@@ -11,7 +11,7 @@ __kernel void pt_mega(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
                           LAYER_PARAMS
 #endif
                               RECORD_PARAMS DIAG_PARAMS const Launch launch) {
-  uint pixel = (uint)get_global_id(0);
+  uint pixel = work_item(launch);
   if (pixel >= launch.tile_width * launch.tile_height) return;
   SCENE_FROM_PARAMS
   TileSample s = tile_sample(launch, camera, filter_table, pixel);

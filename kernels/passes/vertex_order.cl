@@ -16,7 +16,7 @@ INLINE void order_path(__global const StoredVertex* vertices, __global const uin
 }
 
 __kernel void vertex_order(LIGHT_VERTEX_PARAMS EYE_VERTEX_PARAMS const Launch launch) {
-  uint i = (uint)get_global_id(0);
+  uint i = work_item(launch);
   if (i < launch.path_count) {
     order_path((__global const StoredVertex*)light_vertices, light_first, light_last, light_order,
                i);

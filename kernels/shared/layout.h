@@ -183,7 +183,7 @@ typedef struct Launch {
   int film_lsb;                  // exponent of the film's step: sums count multiples of 2^film_lsb
   uint block_ends;               // 1: this iteration completes its block
   uint layer_set;                // layers that are kept apart (shared/layers.h)
-  uint record_capacity;          // events that the record holds
+  uint item_first;               // work-items of the pass that earlier launches have done
   uint window_x, window_y;       // the rendered part of the picture: tiles are parts of it
   uint window_width, window_height;   // pixels
   uint slice_first, slice_count;      // pixels of the tile that passes over slices are about
@@ -203,9 +203,11 @@ typedef struct Launch {
   uint digit;                    // of the sort, from 0
   float
       mis_deep;  // what merges after the first weigh of what their density says; 0: there are none
-  uint record_path;  // light path of which all is recorded, or NONE
+  uint record_path;      // light path of which all is recorded, or NONE
+  uint record_capacity;  // events that the record holds
+  uint pad0, pad1, pad2;
 } Launch;
-LAYOUT_CHECK(Launch, 176);
+LAYOUT_CHECK(Launch, 192);
 
 /// A vertex where a sub-path ends and others may connect. Written by light_trace and camera_trace.
 typedef struct PathVertex {

@@ -18,7 +18,7 @@
   X(Camera, corner) X(Camera, dx) X(Camera, dy) X(Camera, forward)                        \
   X(Launch, tile_width) X(Launch, max_depth) X(Launch, splat_scale) X(Launch, film_lsb)       \
   X(Launch, window_x) X(Launch, slice_first) X(Launch, path_count) X(Launch, store_end) X(Launch, radius) X(Launch, grid_x) X(Launch, grid_bits)   \
-  X(Launch, layer_set)                                                                    \
+  X(Launch, layer_set) X(Launch, record_capacity)X(Launch, item_first)                                              \
   X(PathVertex, ng_u) X(PathVertex, ns_v) X(PathVertex, wo_dVCM) X(PathVertex, beta_dVC)  \
   X(PathVertex, material) X(CompactVertex, ng) X(CompactVertex, beta)                     \
   X(FilmPixel, block) X(FilmPixel, square) X(FilmPixel, count) X(FilmPixel, peak)         \

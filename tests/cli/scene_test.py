@@ -167,4 +167,22 @@ def test_hash():
     check(document(["info", "box.obj"])["hash"] != box, "models count")
 
 
+def test_far_scenes():
+    """A scene a million units away is the one at the origin, but for where its picture says it is."""
+    def moved(x):
+        room = json.loads(json.dumps(ROOM))
+        for place in (room["camera"]["origin"], room["camera"]["target"], room["shapes"][0]["center"],
+                      room["shapes"][1]["center"], room["shapes"][2]["corner"]):
+            place[0] += x
+        write_text(f"room{x:.0f}.json", json.dumps(room))
+        _, err = expect(0, [f"room{x:.0f}.json", "--spp", "16", "-o", f"room{x:.0f}.exr"])
+        check(("its coordinates are counted from 1000000 0 0" in err) == (x > 0) and "warning" not in err, f"told at {x}", err)
+        return document(["info", f"room{x:.0f}.exr"])["metadata"]["worldToCamera"].split()
+
+    near, far = moved(0), moved(1e6)
+    check(abs(float(far[12]) + 1e6) < 1 and far[:12] == near[:12], "where the camera is", near, far)
+    # 1e6 is a whole multiple of 32, twice its size.
+    check(same_pixels("room1000000.exr", "room0.exr"), "the same bits")
+
+
 run_tests(globals())

@@ -21,7 +21,7 @@ HOST = {
     "render": {"base", "image", "cl", "pack", "scene", "bvh", "shared"},
     "integrators": {"base", "pack", "render", "shared"},
     "bench": {"base", "cl", "pack", "render", "scene", "bvh", "shared"},
-    "stability": {"base", "cl", "image", "integrators", "pack", "render", "scene", "shared"},
+    "stability": {"base", "cl", "explain", "image", "integrators", "pack", "render", "scene", "shared"},
     "study": {"base", "cl", "image", "integrators", "pack", "render", "scene", "shared"},
     "apps": {"base", "bench", "stability", "study", "explain", "image", "bvh", "cl", "scene", "pack", "render", "integrators", "shared"},
 }

@@ -125,6 +125,19 @@ TEST(Aov, geometry_of_sphere_wall_and_sky) {
   for (int id : {-1, 0, 1}) EXPECT_GT(seen[id], 50) << "all three fill some of the picture";
 }
 
+// A scene that is counted from its middle tells positions as its file has them.
+TEST(Aov, positions_are_those_of_the_file) {
+  Scene far = still_life();
+  far.origin = {1024, -2048, 4096};
+  const Channels a = by_name(make(still_life(), {"P", "id.object"})), b = by_name(make(far, {"P"}));
+  for (std::size_t i = 0; i < width * height; ++i) {
+    const float there = a.at("id.object")[i] < 0 ? 0 : 1;
+    EXPECT_NEAR(b.at("P.X")[i], a.at("P.X")[i] + 1024 * there, 1e-3);
+    EXPECT_NEAR(b.at("P.Y")[i], a.at("P.Y")[i] - 2048 * there, 1e-3);
+    EXPECT_NEAR(b.at("P.Z")[i], a.at("P.Z")[i] + 4096 * there, 1e-3);
+  }
+}
+
 TEST(Aov, means_of_normals_and_colours) {
   const Channels aov = by_name(make(still_life(), all_names()));
   const Scene scene = still_life();

@@ -2,8 +2,10 @@
 // the origin, and needles.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <utility>
 
+#include "scene/coarse_normals.h"
 #include "scene/coplanar.h"
 #include "scene/distance.h"
 #include "scene/mesh_tools.h"
@@ -75,16 +77,26 @@ TEST(SceneWarnings, LampsThatStandOnAFloorAreNot) {
   EXPECT_EQ(coplanar_warning(scene), "");
 }
 
-TEST(SceneWarnings, FarAwayIsToldWithItsError) {
+TEST(SceneWarnings, WhatLiesFarApartIsToldWithItsError) {
   const auto at = [](double distance) {
     Scene scene;
-    scene.shapes.push_back(shape_of(Sphere{{distance, 0, 0}, 1}));
-    return scene;
+    for (double x : {0.0, distance}) scene.shapes.push_back(shape_of(Sphere{{x, 0, 0}, 1}));
+    return distance_warning(scene);
   };
-  EXPECT_EQ(distance_warning(at(0)), "");
-  EXPECT_EQ(distance_warning(at(2e4)), "");
-  EXPECT_NE(distance_warning(at(2e6)).find("0.12"), std::string::npos) << distance_warning(at(2e6));
+  EXPECT_EQ(at(0), "");
+  EXPECT_EQ(at(2e4), "");
+  EXPECT_NE(at(2e6).find("6 %"), std::string::npos) << at(2e6);
   EXPECT_EQ(distance_warning(Scene()), "") << "nothing there";
+}
+
+TEST(SceneWarnings, FilesInFloatsFarAwayAreTold) {
+  const auto at = [](double distance) {
+    return rounded_file_warning("box", make_cube({distance, 0, 0}, {1, 1, 1}));
+  };
+  EXPECT_EQ(at(0), "");
+  EXPECT_EQ(at(1e4), "");
+  EXPECT_NE(at(1e6).find("6 %"), std::string::npos) << at(1e6);
+  EXPECT_EQ(at(1e6 + 0.1), "") << "more digits than floats have";
 }
 
 TEST(SceneWarnings, ThinGlassIsMeasured) {
@@ -100,6 +112,65 @@ TEST(SceneWarnings, ThinGlassIsMeasured) {
   EXPECT_NE(pane(1e-6, MaterialKind::dielectric).find("1e-06 thick"), std::string::npos)
       << pane(1e-6, MaterialKind::dielectric);
   EXPECT_EQ(pane(1e-6, MaterialKind::diffuse), "") << "no glass";
+}
+
+TEST(SceneWarnings, FarScenesAreCountedFromTheirMiddle) {
+  const test::TempFolder folder;
+  const auto load = [&](const std::string& at) {
+    return load_scene(folder.write(
+        "far.json", R"({"version": 1, "camera": {"origin": [)" + at + R"(, 0, 5], "target": [)" +
+                        at + R"(, 0, 0]}, "materials": {"m": {"type": "diffuse"}}, "shapes": [
+        {"type": "rectangle", "material": "m", "corner": [)" +
+                        at + R"(, 0, 0], "edges": [[2, 0, 0], [0, 2, 0]]},
+        {"type": "sphere", "material": "m", "center": [0, 0, 0], "radius": 0.5,
+         "transform": [{"translate": [)" +
+                        at + R"(, 0, 0]}]}],
+        "lights": [{"type": "point", "position": [)" +
+                        at + R"(, 0, 1], "intensity": 1}]})"));
+  };
+  const Scene near = load("100"), far = load("1e7");
+  EXPECT_EQ(near.origin, glm::dvec3(0));
+  EXPECT_TRUE(near.notes.empty());
+  EXPECT_EQ(far.origin, glm::dvec3(1e7, 0, 0)) << "a multiple of 4, the first power of 2 above 2.5";
+  ASSERT_EQ(far.notes.size(), 1u);
+  EXPECT_TRUE(far.warnings.empty());
+  EXPECT_EQ(far.camera.origin, glm::dvec3(0, 0, 5));
+  EXPECT_EQ(std::get<Mesh>(far.shapes[0].geometry).positions[0], glm::vec3(0, 0, 0));
+  EXPECT_EQ(std::get<Sphere>(far.shapes[1].geometry).center, glm::dvec3(0, 0, 0));
+  EXPECT_EQ(std::get<PointLight>(far.lights[0]).position, glm::dvec3(0, 0, 1));
+}
+
+// A triangle of which floats would leave nothing, in a file with more digits than these.
+TEST(SceneWarnings, FarModelsKeepTheirDigits) {
+  const test::TempFolder folder;
+  const std::string obj = "v 100000000.25 0 0\nv 100000000.5 0 0\nv 100000000.25 0.25 0\nf 1 2 3\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "100000000.25 0 0\n100000000.5 0 0\n100000000.25 0.25 0\n3 0 1 2\n";
+  for (const std::string& file : {folder.write("far.obj", obj), folder.write("far.ply", ply)}) {
+    const Scene scene = load_scene(file);
+    EXPECT_EQ(scene.origin, glm::dvec3(1e8 + 0.5, 0, 0)) << file;
+    const Mesh& mesh = std::get<Mesh>(scene.shapes[0].geometry);
+    EXPECT_EQ(mesh.positions[0], glm::vec3(-0.25, 0, 0)) << file;
+    EXPECT_EQ(mesh.positions[1], glm::vec3(0, 0, 0)) << file;
+    EXPECT_LT(glm::length(scene.camera.origin), 2) << file;
+    EXPECT_TRUE(scene.warnings.empty()) << file << scene.warnings[0];
+  }
+}
+
+TEST(SceneWarnings, CoarseFacetsUnderRoundNormalsLoseLight) {
+  const auto warning = [](double degrees) {
+    Mesh mesh = square(1, 0, false);
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    mesh.normals.assign(4, glm::vec3(std::sin(angle), std::cos(angle), 0));
+    return coarse_normals_note(with(shape_of(mesh)));
+  };
+  EXPECT_EQ(warning(0), "");
+  EXPECT_EQ(warning(11), "");
+  EXPECT_NE(warning(60).find("60 degrees off its 2 facets"), std::string::npos) << warning(60);
+  EXPECT_NE(warning(60).find("25.0 %"), std::string::npos) << warning(60);
+  EXPECT_NE(warning(120).find("25.0 %"), std::string::npos) << "turned to where it is seen from";
 }
 
 TEST(SceneWarnings, NeedlesAreCounted) {
