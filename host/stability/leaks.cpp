@@ -91,7 +91,7 @@ void shoot_edges(const Lab& lab, Findings& findings, const Closed& closed, doubl
   for (bool at_edges : {true, false})
     findings.none(std::string("leaks, ") + closed.name + " at " + std::to_string(int(distance)) +
                       ", rays at " + (at_edges ? "edges" : "vertices") +
-                      (config.width ? ", " + name_of(config) : std::string()),
+                      (name_of(config) == "default" ? "" : ", " + name_of(config)),
                   misses(traced, aimed(lab, closed, traced, center, at_edges)));
   findings.none(std::string("counters of errors, ") + closed.name, traced.errors());
 }

@@ -14,6 +14,7 @@ namespace {
 PlanOptions plan_options(const Lab& lab, const RayConfig& config) {
   PlanOptions options;
   options.simd_builtins = config.builtins;
+  options.float_mode = config.float_mode;
   options.kernel_dir = lab.kernel_dir;
   if (config.naive) options.overlay = NAIVE_OVERLAY;
   return options;
@@ -26,6 +27,7 @@ std::vector<RayConfig> all_configs() {
 }
 
 std::string name_of(const RayConfig& config) {
+  if (config.float_mode != FloatMode::strict) return float_mode_name(config.float_mode);
   if (!config.width) return "default";
   return std::to_string(config.width) + (config.builtins ? " builtin" : " portable");
 }

@@ -14,10 +14,11 @@ namespace pellucid::stability {
 struct RayConfig {
   int width = 0;  ///< lanes of a node; 0: what a render would take on this device
   bool builtins = true;
+  FloatMode float_mode = FloatMode::strict;
   bool naive = false;  ///< by kernels/naive (render/naive_rays.h), to compare with
 };
 /// As on this device, but naive.
-constexpr RayConfig naive_rays{0, true, true};
+constexpr RayConfig naive_rays{0, true, FloatMode::strict, true};
 /// Widths 4, 8, 16, each with and without compiler builtins.
 std::vector<RayConfig> all_configs();
 std::string name_of(const RayConfig& config);

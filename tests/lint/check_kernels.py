@@ -42,7 +42,8 @@ def flags_of(path, seen):
 
 def compile_pass(name, triple, on, width, overlay=()):
     defines = [f"-D{f}={int(f in on)}" for f in FLAGS]
-    defines += [f"-DSIMD_WIDTH={width}", "-DSIMD_BUILTINS=0", "-DFLOAT_CONTRACT=0", "-DBVH_STACK=64",
+    defines += [f"-DSIMD_WIDTH={width}", "-DSIMD_BUILTINS=0", "-DFLOAT_CONTRACT=0",
+                "-DFLOAT_REORDER=0", "-DBVH_STACK=64",
                 f"-DDEV_INT64_ATOMICS={int(triple == 'spir64')}"]
     command = ["clang-15", "-x", "cl", "-cl-std=CL1.2", "-Xclang", "-finclude-default-header",
                "-fsyntax-only", "-target", triple, *(f"-I{KERNELS / folder}" for folder in overlay), f"-I{KERNELS}", *WARNINGS, *defines, str(name)]
