@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <random>
 
@@ -14,11 +15,9 @@
 namespace pellucid {
 namespace {
 
-constexpr std::size_t argument_count = 1000000;
-
 /// x, y: of both signs, 10^-6 to 10^6, so that no result leaves the range of normal numbers;
 /// z: a multiple of 2^-24 in [0, 1), every end of it too; w: an exponent, 10^-5 to 10^4.
-std::vector<F4> make_arguments() {
+std::vector<F4> make_arguments(std::size_t argument_count) {
   std::mt19937_64 engine(1);
   const auto unit = [&] { return double(engine() >> 11) * 0x1p-53; };
   const auto magnitude = [&](double low, double high) {
@@ -32,8 +31,7 @@ std::vector<F4> make_arguments() {
     a.w = float(magnitude(-5, 4));
   }
   const float ends[] = {0.0f, 0x1p-24f, 0.125f, 0.25f, 0.5f, 0.75f, 1.0f - 0x1p-24f};
-  std::size_t i = 0;
-  for (float end : ends) arguments[i++].z = end;
+  for (std::size_t i = 0; i < std::size(ends) && i < argument_count; ++i) arguments[i].z = ends[i];
   return arguments;
 }
 
@@ -110,13 +108,13 @@ MathError judge(const Probe& probe, const std::vector<F4>& arguments, const floa
 
 }  // namespace
 
-std::vector<MathError> probe_math(Device& device, FloatMode mode) {
+std::vector<MathError> probe_math(Device& device, FloatMode mode, std::size_t argument_count) {
   Specialisation special;
   special.rounded_division = device.info().rounded_division;
   special.float_mode = mode;
   const std::string source = KernelFiles().expand("passes/probe_math.cl", prelude_of(special));
   Kernel kernel = device.build("probe_math", source, options_of(special));
-  const std::vector<F4> arguments = make_arguments();
+  const std::vector<F4> arguments = make_arguments(argument_count);
   std::vector<float> found(std::size(probes) * arguments.size());
   const Buffer in =
       device.create_buffer("arguments", arguments.size() * sizeof(F4), arguments.data());

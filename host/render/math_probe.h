@@ -1,6 +1,7 @@
 // The device's arithmetic and functions against double, over a million arguments.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,6 @@ struct MathError {
 };
 
 /// One for each of MATH_PROBES, compiled as renders in this mode are. Throws DeviceError.
-std::vector<MathError> probe_math(Device& device, FloatMode mode);
+std::vector<MathError> probe_math(Device& device, FloatMode mode, std::size_t arguments = 1000000);
 
 }  // namespace pellucid
