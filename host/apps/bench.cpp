@@ -10,6 +10,7 @@
 #include "apps/bench_gate.h"
 #include "apps/bench_render.h"
 #include "apps/bench_report.h"
+#include "apps/bench_robustness.h"
 #include "apps/bench_stability.h"
 #include "apps/command.h"
 #include "apps/common.h"
@@ -18,9 +19,11 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "bench/ray_bench.h"
+#include "bench/robust_bench.h"
 #include "bench/sampler_bench.h"
 #include "bench/sort_bench.h"
 #include "integrators/registry.h"
+#include "stability/robustness.h"
 
 namespace pellucid {
 namespace {
@@ -39,6 +42,7 @@ struct BenchCommand {
   ExitCode run_renders(const CommonOptions& common) const;
   ExitCode run_sorts(const CommonOptions& common) const;
   ExitCode run_hard_cases(const CommonOptions& common) const;
+  ExitCode run_robustness(const CommonOptions& common) const;
   ExitCode judge(const std::vector<std::string>& worse) const;
 };
 
@@ -124,8 +128,30 @@ ExitCode BenchCommand::run_hard_cases(const CommonOptions& common) const {
   return ExitCode::done;
 }
 
+ExitCode BenchCommand::run_robustness(const CommonOptions& common) const {
+  const Device target = device.open();
+  const std::vector<Scene> scenes = open_scenes({"rays-1k", "rays-100k", "rays-1m"});
+  Progress progress("bench");
+  RobustBenchOptions options;
+  options.repeats = repeats.value_or(options.repeats);
+  options.plan.kernel_dir = kernel_dir;
+  options.progress = [&](const std::string& text) { progress.update(text); };
+  const std::vector<PriceCell> cells =
+      bench_robustness(target, scenes, find_integrator("path"), options);
+  std::vector<stability::Faults> faults;
+  const stability::Lab lab{target, kernel_dir};
+  options.progress("faults");
+  compare_leaks(lab, faults);
+  compare_rehits(lab, faults);
+  const nlohmann::json document = robustness_document(cells, faults, target.info());
+  if (common.wants_text()) print_result(robustness_text(document));
+  write_json(common.json, document);
+  return ExitCode::done;
+}
+
 ExitCode BenchCommand::run(const CommonOptions& common) const {
-  const std::vector<std::string> workloads{"rays", "render", "sampler", "sort", "stability"};
+  const std::vector<std::string> workloads{"rays", "render",    "sampler",
+                                           "sort", "stability", "robustness"};
   if (std::find(workloads.begin(), workloads.end(), only) == workloads.end())
     throw UsageError("--only: there is no workload '" + only + "'; there are " + join(workloads) +
                      "." + did_you_mean(only, workloads));
@@ -138,6 +164,7 @@ ExitCode BenchCommand::run(const CommonOptions& common) const {
   if (only == "rays") return run_rays(common);
   if (only == "sort") return run_sorts(common);
   if (only == "stability") return run_hard_cases(common);
+  if (only == "robustness") return run_robustness(common);
   return only == "render" ? run_renders(common) : run_sampler(common);
 }
 
@@ -145,12 +172,14 @@ ExitCode BenchCommand::run(const CommonOptions& common) const {
 
 CommandRun setup_bench(CLI::App& app) {
   auto c = std::make_shared<BenchCommand>();
-  app.add_option("--only", c->only,
-                 "which workload: rays (default); render: every method on "
-                 "scenes of every hard kind; "
-                 "sampler: what Sobol points are worth; sort: the photon grid beside sorts by the "
-                 "host; stability: hard cases, each held to its bound")
-      ->type_name("rays|render|sampler|sort|stability");
+  app.add_option(
+         "--only", c->only,
+         "which workload: rays (default); render: every method on "
+         "scenes of every hard kind; "
+         "sampler: what Sobol points are worth; sort: the photon grid beside sorts by the "
+         "host; stability: hard cases, each held to its bound; robustness: rays beside naive ones, "
+         "in time and in faults")
+      ->type_name("rays|render|sampler|sort|stability|robustness");
   app.add_option("--scene", c->scenes_asked,
                  "with --only render or sampler: this scene instead of the workload's; repeatable")
       ->type_name("SCENE")
@@ -162,8 +191,8 @@ CommandRun setup_bench(CLI::App& app) {
   c->device.declare(app);
   c->device.declare_threads(app);
   app.add_option("--repeats", c->repeats,
-                 "runs of each cell; for render and sampler, seeds (default 7; of render 5); for "
-                 "stability, as many times the rays and samples (default 1)")
+                 "runs of each cell; for render and sampler, seeds (default 7; of render 5, of "
+                 "robustness 15); for stability, as many times the rays and samples (default 1)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--kernel-dir", c->kernel_dir, "read kernels from this folder")->type_name("DIR");
   app.add_option("--baseline", c->baseline, "an earlier --json result to compare with")

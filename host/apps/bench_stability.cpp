@@ -66,11 +66,12 @@ std::vector<const Case*> choose_cases(const std::vector<std::string>& asked) {
   return chosen;
 }
 
-json run_stability(const std::vector<const Case*>& cases, const stability::Lab& lab) {
+json run_stability(const std::vector<const Case*>& cases, stability::Lab lab) {
   Progress progress("bench");
   json results = json::array();
   for (const Case* c : cases) {
     progress.update(c->name);
+    lab.progress = [&](const std::string& at) { progress.update(c->name + ": " + at); };
     results.push_back(document_of(run_case(*c, lab)));
   }
   return {{"workload", "stability-1"},

@@ -13,8 +13,7 @@ namespace pellucid {
 std::vector<const stability::Case*> choose_cases(const std::vector<std::string>& asked);
 
 /// Runs them one after another.
-nlohmann::json run_stability(const std::vector<const stability::Case*>& cases,
-                             const stability::Lab& lab);
+nlohmann::json run_stability(const std::vector<const stability::Case*>& cases, stability::Lab lab);
 
 /// The document as a table.
 std::string stability_text(const nlohmann::json& document);

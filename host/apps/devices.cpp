@@ -8,6 +8,7 @@
 #include "apps/common.h"
 #include "base/text.h"
 #include "integrators/registry.h"
+#include "render/math_probe.h"
 #include "render/selftest.h"
 
 namespace pellucid {
@@ -41,18 +42,30 @@ std::string as_text(const DeviceInfo& d) {
       d.unusable.empty() ? "" : fmt::format("     cannot be used: {}\n", d.unusable));
 }
 
-/// Layout probe and tiny render; text for people, facts into `document`.
+/// Layout and arithmetic probes and a tiny render; text for people, facts into `document`.
 bool selftest(const DeviceInfo& info, std::string& text, nlohmann::json& document) {
   Device device = Device::open(info.spec());
   const std::vector<std::string> differences = probe_layout(device);
   const SelfTestRender render = selftest_render(device, find_integrator(default_integrator()));
-  const bool passed = differences.empty() && render.passed;
+  std::vector<std::string> inexact;
+  nlohmann::json math = nlohmann::json::array();
+  for (const MathError& e : probe_math(device, FloatMode::strict)) {
+    if (!e.holds())
+      inexact.push_back(fmt::format("{} is {:.3g} {} off instead of at most {}", e.function,
+                                    e.worst, e.unit, e.bound));
+    math.push_back(
+        {{"function", e.function}, {"worst", e.worst}, {"bound", e.bound}, {"unit", e.unit}});
+  }
+  const bool passed = differences.empty() && inexact.empty() && render.passed;
   text += fmt::format(
-      "     selftest {}: layouts {}, a sphere of radiance {} renders as {:.5f} +- {:.5f}\n",
+      "     selftest {}: layouts {}, arithmetic {}, a sphere of radiance {} renders as {:.5f} +- "
+      "{:.5f}\n",
       passed ? "passed" : "FAILED", differences.empty() ? "agree" : join(differences, "; "),
-      render.expected, render.mean, render.standard_error);
+      inexact.empty() ? "is exact enough" : join(inexact, "; "), render.expected, render.mean,
+      render.standard_error);
   document["selftest"] = {{"passed", passed},
                           {"layout_differences", differences},
+                          {"math", math},
                           {"mean", render.mean},
                           {"expected", render.expected},
                           {"standard_error", render.standard_error}};
@@ -86,7 +99,8 @@ ExitCode run_devices(bool with_selftest, const CommonOptions& common) {
 
 CommandRun setup_devices(CLI::App& app) {
   auto with_selftest = std::make_shared<bool>(false);
-  app.add_flag("--selftest", *with_selftest, "also run the layout probe and a tiny render on each");
+  app.add_flag("--selftest", *with_selftest,
+               "also run probes of layouts and arithmetic and a tiny render on each");
   app.footer("Example: pellucid devices --selftest");
   return
       [with_selftest](const CommonOptions& common) { return run_devices(*with_selftest, common); };

@@ -3,6 +3,7 @@
 
 #include "base/relmse.h"
 #include "render/launch.h"
+#include "render/naive_rays.h"
 
 namespace pellucid {
 
@@ -15,6 +16,7 @@ BenchScene::BenchScene(const Device& device, Scene scene, int size, const PlanOp
   scene_.settings.width = scene_.settings.height = size;
   scene_.settings.filter = PixelFilter::box;
   packed_ = pack_scene(scene_, {simd_width_for(device.info())});
+  if (plan_.overlay == NAIVE_OVERLAY) packed_ = for_naive_rays(std::move(packed_));
 }
 
 std::optional<unsigned> BenchScene::max_depth() const {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -21,6 +22,12 @@ std::string included_name(const std::string& line) {
   const size_t open = line.find('"', hash), close = line.find('"', open + 1);
   if (open == std::string::npos || close == std::string::npos) return "";
   return line.substr(open + 1, close - open - 1);
+}
+
+const cl_detail::EmbeddedFile* embedded(const std::string& name) {
+  for (unsigned i = 0; i < cl_detail::embedded_file_count; ++i)
+    if (name == cl_detail::embedded_files[i].name) return &cl_detail::embedded_files[i];
+  return nullptr;
 }
 
 struct Expander {
@@ -55,11 +62,16 @@ struct Expander {
 
 }  // namespace
 
-std::string KernelFiles::read(const std::string& name) const {
+bool KernelFiles::has(const std::string& name) const {
+  return folder_.empty() ? embedded(name) != nullptr
+                         : std::filesystem::exists(folder_ + "/" + name);
+}
+
+std::string KernelFiles::read(const std::string& asked) const {
+  const std::string stand_in = overlay_ + "/" + asked;
+  const std::string& name = !overlay_.empty() && has(stand_in) ? stand_in : asked;
   if (!folder_.empty()) return read_text(folder_ + "/" + name);
-  for (unsigned i = 0; i < cl_detail::embedded_file_count; ++i)
-    if (name == cl_detail::embedded_files[i].name)
-      return std::string(cl_detail::embedded_files[i].text, cl_detail::embedded_files[i].size);
+  if (const auto* file = embedded(name)) return std::string(file->text, file->size);
   throw InputError(fmt::format("there is no kernel file '{}'", name));
 }
 

@@ -9,7 +9,9 @@ namespace pellucid {
 /// Kernel files: those inside the binary, or a folder on disk for live work (--kernel-dir).
 class KernelFiles {
  public:
-  explicit KernelFiles(std::string folder = "") : folder_(std::move(folder)) {}
+  /// `overlay`: a folder below kernels/ whose files stand in for those of the same name.
+  explicit KernelFiles(std::string folder = "", std::string overlay = "")
+      : folder_(std::move(folder)), overlay_(std::move(overlay)) {}
 
   /// Text of `name` (path below kernels/). Throws InputError if there is none.
   std::string read(const std::string& name) const;
@@ -19,7 +21,9 @@ class KernelFiles {
   std::string expand(const std::string& name, const std::string& prelude) const;
 
  private:
-  std::string folder_;
+  bool has(const std::string& name) const;
+
+  std::string folder_, overlay_;
 };
 
 }  // namespace pellucid

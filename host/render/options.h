@@ -21,6 +21,7 @@ struct PlanOptions {
   FloatMode float_mode = FloatMode::strict;
   FeatureSet extra_features;     ///< on top of what the scene needs
   std::string kernel_dir;        ///< read kernels from here instead of the binary
+  std::string overlay;           ///< see KernelFiles; for the benchmark alone
   std::size_t group = 0;         ///< work-items per group; 0: default_group or what the kernel can
   std::size_t launch_items = 0;  ///< work-items of a launch; 0: as many as take 40 ms or so
   bool simd_builtins = true;

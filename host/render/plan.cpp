@@ -124,7 +124,7 @@ Plan::Plan(Device device, const PackedScene& scene, const Integrator& integrator
                         buffers_.at(side + std::string("_last")).bytes() / sizeof(uint),
                         buffers_.at(side + std::string("_order")).bytes() / sizeof(uint)});
   if (specialisation_.features.has(INTG_COMPACT)) check_compact(scene);
-  const KernelFiles files(options_.kernel_dir);
+  const KernelFiles files(options_.kernel_dir, options_.overlay);
   const std::string prelude = prelude_of(specialisation_);
   passes_.reserve(integrator.passes.size());
   for (const Pass& pass : integrator.passes) {

@@ -19,7 +19,7 @@ void RayTracer::set_scene(const PackedScene& scene) {
   const Specialisation special = specialise(scene, {}, device_.info(), options_);
   if (prelude_of(special) == prelude_) return;
   prelude_ = prelude_of(special);
-  const KernelFiles files(options_.kernel_dir);
+  const KernelFiles files(options_.kernel_dir, options_.overlay);
   const auto build = [&](const std::string& name) {
     return device_.build(name, files.expand("passes/" + name + ".cl", prelude_),
                          options_of(special));

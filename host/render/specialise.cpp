@@ -52,6 +52,7 @@ std::string prelude_of(const Specialisation& s) {
   define("SIMD_BUILTINS", s.simd_builtins);
   define("DEV_INT64_ATOMICS", s.int64_atomics);
   define("FLOAT_CONTRACT", s.float_mode != FloatMode::strict);
+  define("FLOAT_REORDER", s.float_mode == FloatMode::fast);
   if (s.int64_atomics) text += "#pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable\n";
   return text;
 }

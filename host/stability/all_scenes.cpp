@@ -15,30 +15,87 @@
 #include "stability/renderer.h"
 
 namespace pellucid::stability {
+namespace {
+
+/// Kinds of paths that a method traces for every pixel and sample.
+struct Kinds {
+  std::uint64_t camera = 0, light = 0;
+};
+
+Kinds kinds_of(const Integrator& method) {
+  Kinds kinds;
+  for (const Pass& pass : method.passes)
+    if (pass.name == "pt_mega" || pass.name == "camera_trace") kinds.camera = 1;
+  if (method.walks_from_lights()) kinds.light = 1;
+  return kinds;
+}
+
+/// One method on all scenes.
+class Soak {
+ public:
+  Soak(const Lab& lab, const Integrator& method) : lab_(lab), method_(method) {}
+  void render(const Scene& scene, int side, std::uint64_t spp);
+  void report(Findings& findings) const;
+  const Kinds& traced() const { return traced_; }
+
+ private:
+  const Lab& lab_;
+  const Integrator& method_;
+  Kinds traced_;
+  std::uint64_t errors_ = 0, odd_ = 0;
+  std::string what_;
+};
+
+void Soak::render(const Scene& scene, int side, std::uint64_t spp) {
+  if (lab_.progress) lab_.progress(method_.name + " on " + scene.name);
+  try {
+    const Picture picture = Renderer(lab_, scene, {method_.name, side, side})
+                                .render({spp, 3, long_enough, MIS_BALANCE});
+    const std::uint64_t samples = picture.film.passes.count() * picture.pixels.size();
+    traced_.camera += samples * kinds_of(method_).camera;
+    traced_.light += samples * kinds_of(method_).light;
+    for (const auto& pixel : picture.pixels)
+      for (const Estimate& e : pixel) odd_ += !(std::isfinite(e.mean) && e.mean >= 0);
+  } catch (const NumericError& e) {
+    ++errors_;
+    what_ += fmt::format(" ({}: {})", scene.name, e.what());
+  }
+}
+
+void Soak::report(Findings& findings) const {
+  findings.none(
+      fmt::format("scenes in which something was dropped, {}, {} paths from the camera and {} from "
+                  "lights{}",
+                  method_.name, traced_.camera, traced_.light, what_),
+      errors_);
+  findings.none("pixels that are no radiance, " + method_.name, odd_);
+}
+
+}  // namespace
 
 void nothing_is_dropped(const Lab& lab, Findings& findings) {
   std::vector<const char*> names{"everything", "materials",     "veach-mis",
                                  "pool",       "glass-caustic", "mirror-caustic"};
-  const int side = lab.effort > 1 ? 32 : 16;
+  // Large pictures make few launches of many paths.
+  const int side = lab.effort > 1 ? 256 : 32;
   if (lab.effort > 1) names.insert(names.end(), {"glass-lamp", "keyhole", "four-balls-sun"});
   std::vector<Scene> scenes;
   for (const char* name : names) scenes.push_back(lab.open_scene(name));
+  std::uint64_t paths_of_sample = 0;
+  for (const Integrator& method : integrators())
+    paths_of_sample += (kinds_of(method).camera + kinds_of(method).light) * scenes.size();
+  const std::uint64_t wanted = lab.count(2000000);
+  const std::uint64_t samples = (wanted + paths_of_sample - 1) / paths_of_sample;
+  const std::uint64_t pixels = std::uint64_t(side) * std::uint64_t(side);
+  std::uint64_t traced = 0;
   for (const Integrator& method : integrators()) {
-    std::uint64_t errors = 0, odd = 0;
-    std::string what;
-    for (const Scene& scene : scenes) {
-      try {
-        const Sampling run{lab.count(16), 3, long_enough, MIS_BALANCE};
-        for (const auto& pixel : Renderer(lab, scene, {method.name, side, side}).render(run).pixels)
-          for (const Estimate& e : pixel) odd += !(std::isfinite(e.mean) && e.mean >= 0);
-      } catch (const NumericError& e) {
-        ++errors;
-        what += fmt::format(" ({}: {})", scene.name, e.what());
-      }
-    }
-    findings.none("scenes in which something was dropped, " + method.name + what, errors);
-    findings.none("pixels that are no radiance, " + method.name, odd);
+    Soak soak(lab, method);
+    for (const Scene& scene : scenes) soak.render(scene, side, (samples + pixels - 1) / pixels);
+    soak.report(findings);
+    traced += soak.traced().camera + soak.traced().light;
   }
+  findings.none(fmt::format("paths short of {}, of {} that were traced", wanted, traced),
+                traced < wanted ? wanted - traced : 0);
 }
 
 }  // namespace pellucid::stability

@@ -1,6 +1,8 @@
 // Relaxed arithmetic (numerics 5): `mad` and `fast` render the pictures of `strict`, lose nothing
 // through closed meshes, and count no error.
 //
+// The device's own arithmetic is probed against double, mode by mode (shared/probe.h).
+//
 // What must not be relaxed is not: where rays meet shapes every operation is rounded as written in
 // all modes (EXACT_BEGIN), no infinity is computed with, and NaN is told by its bits.
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include <cmath>
 #include <vector>
 
+#include "render/math_probe.h"
 #include "stability/exact.h"
 #include "stability/measurements.h"
 #include "stability/small_scenes.h"
@@ -25,6 +28,14 @@ Picture render(const Lab& lab, const Scene& scene, const char* method, FloatMode
 }  // namespace
 
 void relaxed_modes_keep_the_picture(const Lab& lab, Findings& findings) {
+  Device device = lab.device;
+  for (FloatMode mode : {FloatMode::strict, FloatMode::mad, FloatMode::fast})
+    for (const MathError& e : probe_math(device, mode))
+      findings.at_most(fmt::format("{} of 1e6 arguments in {}: {} off", e.function,
+                                   float_mode_name(mode), e.unit),
+                       e.worst, e.bound);
+  for (FloatMode mode : {FloatMode::mad, FloatMode::fast})
+    aimed_rays_hit(lab, findings, {0, true, mode});
   const Scene box = light_tight_box();
   std::vector<const char*> tried{"path", "bdpt"};
   if (lab.effort > 1) tried.push_back("vcm");  // a dozen kernels more to be compiled, twice

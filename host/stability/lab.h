@@ -16,6 +16,8 @@ struct Lab {
   double effort = 1;
   /// Shipped scenes by name.
   std::function<Scene(const std::string&)> open_scene = {};
+  /// Told what long cases are at.
+  std::function<void(const std::string&)> progress = {};
 
   std::size_t count(std::size_t at_effort_1) const {
     return static_cast<std::size_t>(double(at_effort_1) * effort);

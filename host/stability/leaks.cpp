@@ -3,12 +3,15 @@
 // Neighbours that round a shared edge differently both say "outside". The test shears vertices
 // alike in all triangles that share them [Woop13] and settles edge functions that round to 0
 // exactly, by two fma; contraction is off there in every float mode (geom/triangle.h).
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
 #include "integrators/registry.h"
 #include "stability/measurements.h"
 #include "stability/renderer.h"
+#include "stability/robustness.h"
 
 namespace pellucid::stability {
 namespace {
@@ -65,19 +68,31 @@ std::size_t misses(const std::vector<TraceHit>& hits) {
   return n;
 }
 
-void shoot_edges(const Lab& lab, Findings& findings, const Closed& closed, double distance,
-                 const RayConfig& config) {
-  const glm::dvec3 center = distance * glm::dvec3(0.6, -0.64, 0.48);
+/// Of the closest hits and of any hit.
+std::size_t misses(TracedScene& scene, const std::vector<TraceRay>& rays) {
+  const BothHits hits = scene.both(rays);
+  return misses(hits.closest) + misses(hits.any);
+}
+
+glm::dvec3 place_at(double distance) {
+  return distance * glm::dvec3(0.6, -0.64, 0.48);
+}
+
+Scene scene_of(const Closed& closed, const glm::dvec3& center) {
   Scene scene = empty_scene();
   add_shape(scene, baked(closed.raw, center));
-  TracedScene traced(lab, scene, config);
-  for (bool at_edges : {true, false}) {
-    const BothHits hits = traced.both(aimed(lab, closed, traced, center, at_edges));
+  return scene;
+}
+
+void shoot_edges(const Lab& lab, Findings& findings, const Closed& closed, double distance,
+                 const RayConfig& config) {
+  const glm::dvec3 center = place_at(distance);
+  TracedScene traced(lab, scene_of(closed, center), config);
+  for (bool at_edges : {true, false})
     findings.none(std::string("leaks, ") + closed.name + " at " + std::to_string(int(distance)) +
                       ", rays at " + (at_edges ? "edges" : "vertices") +
-                      (config.width ? ", " + name_of(config) : std::string()),
-                  misses(hits.closest) + misses(hits.any));
-  }
+                      (name_of(config) == "default" ? "" : ", " + name_of(config)),
+                  misses(traced, aimed(lab, closed, traced, center, at_edges)));
   findings.none(std::string("counters of errors, ") + closed.name, traced.errors());
 }
 
@@ -97,6 +112,21 @@ void closed_meshes_are_tight(const Lab& lab, Findings& findings) {
     for (const auto& pixel : renderer.render({lab.count(16), 1, 8, MIS_BALANCE}).pixels)
       lit += pixel[0].mean != 0;
     findings.none("lit pixels in a closed box, " + method.name, lit);
+  }
+}
+
+void compare_leaks(const Lab& lab, std::vector<Faults>& faults) {
+  const Closed closed = sphere();
+  for (double distance : {0.0, 10.0, 1e3, 1e5}) {
+    const glm::dvec3 center = place_at(distance);
+    const Scene scene = scene_of(closed, center);
+    TracedScene ours(lab, scene), naive(lab, scene, naive_rays);
+    for (bool at_edges : {true, false}) {
+      const std::vector<TraceRay> rays = aimed(lab, closed, ours, center, at_edges);
+      faults.push_back({fmt::format("rays at {} of a closed mesh of size 1 at {:g} that leave it",
+                                    at_edges ? "edges" : "vertices", distance),
+                        2 * rays.size(), misses(ours, rays), misses(naive, rays)});
+    }
   }
 }
 

@@ -5,6 +5,8 @@
 // start behind it; a fixed nudge is too small far away and too large close up. Here the point is
 // rebuilt from its barycentrics, its error bounded and the start moved by that bound along the
 // geometric normal (geom/surface.h): some 20 operations and three vertices per hit.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +15,7 @@
 #include "shared/limits.h"
 #include "stability/measurements.h"
 #include "stability/renderer.h"
+#include "stability/robustness.h"
 
 namespace pellucid::stability {
 namespace {
@@ -51,15 +54,17 @@ glm::vec3 spawn_direction(const Start& start, std::size_t k, Random& random) {
   return glm::vec3(k % 3 ? w : glm::normalize(w - n * (glm::dot(n, w) * 0.999)));
 }
 
-void spawn_batch(TracedScene& scene, Random& random, std::size_t n, Spawned& result) {
+/// `naive`: rays start as naive code has it.
+void spawn_batch(TracedScene& scene, Random& random, std::size_t n, bool naive, Spawned& result) {
   std::vector<TraceRay> first(2 * n / per_hit);
   for (TraceRay& ray : first) ray = ray_to_surface(scene, random);
   const std::vector<TraceHit> hits = scene.closest(first);
   std::vector<TraceRay> rays;
   std::vector<uint> own;
-  for (const TraceHit& hit : hits) {
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const TraceHit& hit = hits[i];
     if (hit.prim == NONE || rays.size() >= n) continue;
-    const Start start = start_at(scene, hit);
+    const Start start = naive ? naive_start_at(scene, first[i], hit) : start_at(scene, hit);
     float largest = 0;
     for (int k = 0; k < 3; ++k)
       for (int axis = 0; axis < 3; ++axis)
@@ -75,17 +80,26 @@ void spawn_batch(TracedScene& scene, Random& random, std::size_t n, Spawned& res
   for (std::size_t i = 0; i < next.size(); ++i) result.again += next[i].prim == own[i];
 }
 
-/// A ninth of all rays: there are nine scenes.
-void measure_rehits(const Lab& lab, Findings& findings, const std::string& name, Mesh mesh) {
-  Scene scene = empty_scene();
-  add_shape(scene, std::move(mesh));
-  TracedScene traced(lab, scene);
+Spawned spawn(TracedScene& scene, std::size_t wanted, bool naive) {
   Random random(7);
   Spawned result;
+  while (result.rays < wanted)
+    spawn_batch(scene, random, std::min<std::size_t>(wanted - result.rays, 1000000), naive, result);
+  return result;
+}
+
+Scene scene_of(Mesh mesh) {
+  Scene scene = empty_scene();
+  add_shape(scene, std::move(mesh));
+  return scene;
+}
+
+/// A ninth of all rays: there are nine scenes.
+void measure_rehits(const Lab& lab, Findings& findings, const std::string& name, Mesh mesh) {
+  TracedScene traced(lab, scene_of(std::move(mesh)));
   // 1e8 in all, as the catalogue asks for, at an effort of 10.
   const std::size_t wanted = lab.count(1000008) * std::size_t(std::min(lab.effort, 10.0)) / 9;
-  while (result.rays < wanted)
-    spawn_batch(traced, random, std::min<std::size_t>(wanted - result.rays, 1000000), result);
+  const Spawned result = spawn(traced, wanted, false);
   findings.none("re-hits of " + std::to_string(result.rays) + " rays, " + name, result.again);
   findings.none("counters of errors, " + name, traced.errors());
   // No more than rounding asks for.
@@ -161,9 +175,9 @@ Scene facing_planes(const Facing& f, double P, double cell, double gap) {
   return scene;
 }
 
-/// Rays from plane A towards B, `gap` away, that do not hit B.
+/// Rays from plane A towards B, `gap` away, that do not hit B; `of`: all rays.
 std::size_t leaks(TracedScene& traced, std::size_t n, const Facing& f, double P, double cell,
-                  double gap) {
+                  double gap, bool naive = false, std::uint64_t* of = nullptr) {
   const glm::dvec3 center = P * f.place;
   const Scene scene = facing_planes(f, P, cell, gap);
   traced.set_scene(scene);
@@ -176,14 +190,18 @@ std::size_t leaks(TracedScene& traced, std::size_t n, const Facing& f, double P,
     ray = ray_towards(target - cell * P * (up + 0.5 * random.direction()), target);
   }
   std::vector<TraceRay> next;
-  for (const TraceHit& hit : traced.closest(rays)) {
+  const std::vector<TraceHit> hits = traced.closest(rays);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const TraceHit& hit = hits[i];
     if (hit.prim >= first_of_b) continue;  // none, or past the border of A
     glm::dvec3 w = random.direction();
     const double cosine = glm::dot(w, f.normal);
     if (cosine < 0) w -= 2 * cosine * f.normal;
     if (std::abs(cosine) < 0.05) continue;
-    next.push_back(start_at(traced, hit).towards(glm::vec3(w)));
+    const Start start = naive ? naive_start_at(traced, rays[i], hit) : start_at(traced, hit);
+    next.push_back(start.towards(glm::vec3(w)));
   }
+  if (of) *of = next.size();
   std::size_t lost = 0;
   for (const TraceHit& hit : traced.closest(next))
     lost += hit.prim == NONE || hit.prim < first_of_b;
@@ -298,6 +316,32 @@ void spawned_rays_leave(const Lab& lab, Findings& findings) {
   }
   measure_lamps(lab, findings);
   measure_floors(lab, findings);
+}
+
+void compare_rehits(const Lab& lab, std::vector<Faults>& faults) {
+  const std::size_t rays = lab.count(200000);
+  const auto compare = [&](const char* what, Mesh mesh) {
+    const Scene scene = scene_of(std::move(mesh));
+    TracedScene ours(lab, scene), naive(lab, scene, naive_rays);
+    faults.push_back({fmt::format("rays that hit the triangle they start on, {}", what), rays,
+                      spawn(ours, rays, false).again, spawn(naive, rays, true).again});
+  };
+  Random random(1);
+  compare("triangles of 1e-3 to 1e-1 around the origin", scattered(random, 1000, -3, -1));
+  compare("triangles of 1e3 to 1e4 around the origin", scattered(random, 1000, 3, 4));
+  compare("a sphere of radius 1 at the origin", ball(0));
+  compare("at 1e3", ball(1e3));
+  compare("a plane of size 2 at 1e4", plane(1e4));
+  for (double gap : {1e-3, 1e-4, 1e-5}) {
+    const Facing& f = facing[4];
+    const Scene scene = facing_planes(f, 1, 0.3, gap);
+    TracedScene ours(lab, scene), naive(lab, scene, naive_rays);
+    Faults row;
+    row.what = fmt::format("rays between planes {:g} apart, at 1, that pass one", gap);
+    row.ours = leaks(ours, rays, f, 1, 0.3, gap);
+    row.naive = leaks(naive, rays, f, 1, 0.3, gap, true, &row.rays);
+    faults.push_back(row);
+  }
 }
 
 }  // namespace pellucid::stability

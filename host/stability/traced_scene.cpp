@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/naive_rays.h"
 #include "shared/limits.h"
 
 namespace pellucid::stability {
@@ -13,7 +14,9 @@ namespace {
 PlanOptions plan_options(const Lab& lab, const RayConfig& config) {
   PlanOptions options;
   options.simd_builtins = config.builtins;
+  options.float_mode = config.float_mode;
   options.kernel_dir = lab.kernel_dir;
+  if (config.naive) options.overlay = NAIVE_OVERLAY;
   return options;
 }
 
@@ -24,17 +27,24 @@ std::vector<RayConfig> all_configs() {
 }
 
 std::string name_of(const RayConfig& config) {
+  if (config.float_mode != FloatMode::strict) return float_mode_name(config.float_mode);
   if (!config.width) return "default";
   return std::to_string(config.width) + (config.builtins ? " builtin" : " portable");
 }
 
 TracedScene::TracedScene(const Lab& lab, const Scene& scene, const RayConfig& config)
     : width_(config.width ? config.width : simd_width_for(lab.device.info())),
-      packed(pack_scene(scene, {width_})),
+      naive_(config.naive),
+      packed(pack(scene)),
       tracer_(lab.device, packed, plan_options(lab, config)) {}
 
+PackedScene TracedScene::pack(const Scene& scene) const {
+  PackedScene result = pack_scene(scene, {width_});
+  return naive_ ? for_naive_rays(std::move(result)) : result;
+}
+
 void TracedScene::set_scene(const Scene& scene) {
-  packed = pack_scene(scene, {width_});
+  packed = pack(scene);
   tracer_.set_scene(packed);
 }
 
@@ -92,8 +102,17 @@ Start start_at(const TracedScene& scene, const TraceHit& hit) {
   return s;
 }
 
+Start naive_start_at(const TracedScene& scene, const TraceRay& ray, const TraceHit& hit) {
+  Start s = start_at(scene, hit);
+  s.p = {std::fma(hit.t, ray.dx, ray.ox), std::fma(hit.t, ray.dy, ray.oy),
+         std::fma(hit.t, ray.dz, ray.oz)};
+  s.offset = 0;
+  s.epsilon = NAIVE_EPSILON;
+  return s;
+}
+
 TraceRay Start::towards(const glm::vec3& w) const {
-  const glm::vec3 o = p + ng * (glm::dot(ng, w) < 0.0f ? -offset : offset);
+  const glm::vec3 o = p + w * epsilon + ng * (glm::dot(ng, w) < 0.0f ? -offset : offset);
   return ray_along(o, w);
 }
 

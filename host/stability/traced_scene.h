@@ -14,7 +14,11 @@ namespace pellucid::stability {
 struct RayConfig {
   int width = 0;  ///< lanes of a node; 0: what a render would take on this device
   bool builtins = true;
+  FloatMode float_mode = FloatMode::strict;
+  bool naive = false;  ///< by kernels/naive (render/naive_rays.h), to compare with
 };
+/// As on this device, but naive.
+constexpr RayConfig naive_rays{0, true, FloatMode::strict, true};
 /// Widths 4, 8, 16, each with and without compiler builtins.
 std::vector<RayConfig> all_configs();
 std::string name_of(const RayConfig& config);
@@ -39,7 +43,10 @@ class TracedScene {
   glm::vec3 corner(uint prim, int k) const;
 
  private:
+  PackedScene pack(const Scene& scene) const;
+
   int width_;
+  bool naive_;
 
  public:
   PackedScene packed;
@@ -63,9 +70,12 @@ inline glm::dvec3 direction_of(const TraceRay& r) {
 struct Start {
   glm::vec3 p, ng;
   float offset;
+  float epsilon = 0;  ///< naive code: how far along the ray it starts
   TraceRay towards(const glm::vec3& w) const;
 };
 Start start_at(const TracedScene& scene, const TraceHit& hit);
+/// The same as naive code has it: at o + t d, an epsilon along the new ray.
+Start naive_start_at(const TracedScene& scene, const TraceRay& ray, const TraceHit& hit);
 
 /// (n + 1)^2 points over corner + [0,1] a + [0,1] b, two triangles per cell; `stretch` > 1 makes
 /// cells of very different sizes.

@@ -65,6 +65,8 @@ INLINE float atan2_turns(float y, float x) {
   return y < 0.0f ? -turns : turns;
 }
 
+EXACT_BEGIN
+
 /// log2 of a normal positive float as high + low, relative error below 2^-27: pow multiplies it by
 /// up to 126 / log2(x) and must still know the fraction to half an ulp.
 INLINE float log2_split(float x, PRIVATE float* low) {
@@ -86,7 +88,8 @@ INLINE float log2_split(float x, PRIVATE float* low) {
             0.96179669f);
   float fe = (float)e;
   float sum = fe + lead;
-  float rest = ((fe - sum) + lead) + (lead_low + 2.8853900f * f_error + tail);
+  float slope = r_fma(2.8853900f, f2, 2.8853900f);  // of lead + tail by f, which f_error corrects
+  float rest = ((fe - sum) + lead) + (r_fma(slope, f_error, lead_low) + tail);
   float high = sum + rest;  // now |low| <= half an ulp of high, whatever y multiplies it
   *low = rest - (high - sum);
   return high;
@@ -120,8 +123,10 @@ INLINE float pow_unit(float x, float y) {
   return exp2_split(p, p_low);
 }
 
-/// acos x for x in [0, 1], absolute error below 1e-7 [Abramowitz64 4.4.46]. No power of 1 - x is
-/// lost where the angle is small.
+EXACT_END
+
+/// acos x for x in [0, 1], absolute error below 4 * 2^-24 [Abramowitz64 4.4.46]. No power of 1 - x
+/// is lost where the angle is small.
 INLINE float acos_unit(float x) {
   float p = r_fma(x, -0.0012624911f, 0.0066700901f);
   p = r_fma(x, p, -0.0170881256f);

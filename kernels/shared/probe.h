@@ -1,4 +1,5 @@
-// What the layout probe looks at: every shared struct and the first field of each 16-byte row.
+// What the device is asked about before it is trusted: the layout of every shared struct and of the
+// first field of each 16-byte row, and the arithmetic and functions that kernels use.
 #ifndef PELLUCID_SHARED_PROBE_H
 #define PELLUCID_SHARED_PROBE_H
 
@@ -25,5 +26,20 @@
   X(PathEvent, partner) X(PathEvent, p) X(PathEvent, value) X(PathEvent, brought)         \
   X(AovPixel, normal) X(AovPixel, geometric) X(AovPixel, albedo) X(AovPixel, id)
 // clang-format on
+
+// X(name, unit, bound, loose, meaning): `bound` is what kernels count on, in ulps of the result or
+// in roundoffs of 1 (2^-24); `loose` holds where division and roots are not correctly rounded,
+// OpenCL's own bounds, or with --float fast. fma has to be one rounding: edge functions are settled
+// by it.
+#define MATH_PROBES(X)                                                        \
+  X(divide, ULPS, 0.5, 2.5, "x / y")                                          \
+  X(sqrt, ULPS, 0.5, 3.0, "sqrt")                                             \
+  X(fma, ULPS, 0.0, 0.0, "fma(x, y, -xy), which is what rounding of xy lost") \
+  X(floor, ULPS, 0.0, 0.0, "floor")                                           \
+  X(sin, ROUNDOFFS, 1.5, 2.5, "sin of turns")                                 \
+  X(cos, ROUNDOFFS, 1.5, 2.5, "cos of turns")                                 \
+  X(atan2, ROUNDOFFS, 1.0, 2.0, "atan2 in turns")                             \
+  X(pow, ULPS, 4.0, 6.0, "pow for 0 to 1")                                    \
+  X(acos, ROUNDOFFS, 4.0, 5.0, "acos for 0 to 1")
 
 #endif

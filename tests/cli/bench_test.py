@@ -105,6 +105,25 @@ def check_stability():
     check(done.returncode == 2 and "--only stability" in done.stderr, "--case", done.stderr)
 
 
+def check_robustness():
+    """What robust rays cost and buy: prices of every kind of rays and of renders, faults of naive code alone."""
+    done = subprocess.run([PELLUCID, "bench", "--only", "robustness", "--repeats", "1", "--json", "-"],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=500)
+    check(done.returncode == 0, "exit code of the robustness workload", done.stderr)
+    result = json.loads(done.stdout)
+    cells = {(c["triangles"], c["what"]) for c in result["prices"]}
+    check(len(cells) == 12 and {w for _, w in cells} == {"primary", "diffuse", "shadow", "path"}, "cells", cells)
+    for cell in result["prices"]:
+        check(cell["mrays_per_s"] > 0 and cell["naive_mrays_per_s"] > 0, "speeds", cell)
+        check(cell["price_low"] <= cell["price"] <= cell["price_high"], "a range around its median", cell)
+        # The same scenes, so the same picture but for a few rays: the rival does trace them.
+        render = cell["what"] == "path"
+        check(abs(cell["energy"]) < 1e-3 if render else cell["differing"] < 100, "the rival sees the scene", cell)
+    faults = result["faults"]
+    check(sum(f["faults"] for f in faults) == 0, "no faults here", faults)
+    check(sum(f["naive"] > 0 for f in faults) >= len(faults) - 1, "faults of naive code", faults)
+
+
 with tempfile.TemporaryDirectory() as folder:
     baseline = pathlib.Path(folder, "baseline.json")
     code, out, err = run("--json", "-")
@@ -164,6 +183,7 @@ with tempfile.TemporaryDirectory() as folder:
         check(set(cell["pass_seconds"]) == {"grid_keys", "grid_count", "grid_scan", "grid_scatter",
                                             "grid_ranges"}, "all passes have times", cell)
     check_stability()
+    check_robustness()
     done = subprocess.run([PELLUCID, "bench", "--only", "rays", "--scene", "furnace"],
                           stderr=subprocess.PIPE, text=True)
     check(done.returncode == 2 and "--only render and" in done.stderr, "--scene", done.stderr)

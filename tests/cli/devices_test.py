@@ -34,6 +34,8 @@ def test_devices():
         if not one["unusable"]:
             check(one["selftest"]["passed"], "selftest", one)
             check(one["selftest"]["layout_differences"] == [], "layouts agree", one)
+            math = one["selftest"]["math"]
+            check(len(math) == 9 and all(0 <= m["worst"] <= m["bound"] for m in math), "arithmetic", math)
     out, _ = expect(0, ["devices", "--selftest"])
     check("selftest passed" in out, "selftest as text", out)
 

@@ -6,8 +6,10 @@
 #include "base/error.h"
 #include "cl/sources.h"
 #include "integrators/registry.h"
+#include "render/math_probe.h"
 #include "render/selftest.h"
 #include "render/session.h"
+#include "stability/traced_scene.h"
 
 namespace pellucid {
 namespace {
@@ -67,6 +69,35 @@ TEST(DeviceTest, LayoutsAgree) {
   Device device = Device::open("");
   const std::vector<std::string> differences = probe_layout(device);
   EXPECT_TRUE(differences.empty()) << differences.front();
+}
+
+TEST(DeviceTest, ArithmeticIsExactEnough) {
+  Device device = Device::open("");
+  for (const MathError& e : probe_math(device, FloatMode::strict, 1000))
+    EXPECT_TRUE(e.holds()) << e.function << ": " << e.worst << " " << e.unit;
+}
+
+TEST(DeviceTest, ListsOfRaysAreTraced) {
+  using namespace stability;
+  const Lab lab{Device::open("")};
+  Scene scene = empty_scene();
+  add_shape(scene, lump(500));
+  Random random(1);
+  std::vector<TraceRay> rays;
+  for (int i = 0; i < 64; ++i) rays.push_back(ray_along(random.in_box(0.2), random.direction()));
+  const RayConfig robust;
+  std::vector<TraceHit> first;
+  for (const RayConfig& config : {robust, naive_rays}) {
+    TracedScene traced(lab, scene, config);
+    const BothHits hits = traced.both(rays);
+    if (first.empty()) first = hits.closest;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      EXPECT_NE(hits.any[i].prim, NONE) << i;
+      EXPECT_EQ(hits.closest[i].prim, first[i].prim) << i << ": none of these is near an edge";
+      EXPECT_NEAR(hits.closest[i].t, first[i].t, 1e-5) << i;
+    }
+    EXPECT_EQ(traced.errors(), 0u);
+  }
 }
 
 /// The order of parameters comes from buffers.h on both sides; the device compiler's names prove

@@ -17,8 +17,15 @@ EVERYTHING = str(pathlib.Path(__file__).parents[2] / "scenes/stability/everythin
 RUNS = [("path", "gallery"), ("nee", "four-balls-sun"), ("reference", "four-balls-background"),
         ("naive", "cornell-box"), ("light", "cornell-box"), ("bdpt", "four-balls-background"),
         ("bdpt", "textures", "--vertices", "compact", "--aov", "length,tech,light-vertices"),
-        ("sppm", "four-balls-ceiling", "--aov", "tech,photons,cells,radius"), ("vcm", "textures", "--vertices", "compact")]
+        ("sppm", "four-balls-ceiling", "--aov", "tech,photons,cells,radius"), ("vcm", "textures", "--vertices", "compact"),
+        ("sppm", "cornell-box", "--radius", "40", "--radius-alpha", "0.6"), ("bpm", "cornell-box", "--radius", "40"),
+        ("path", "materials", "--aov", "Z,P,N,albedo,id.material")]
+# What no render runs, by the test of the device that does.
+PROBES = {"probe_layout": "DeviceTest.LayoutsAgree", "probe_math": "DeviceTest.ArithmeticIsExactEnough",
+          "trace_closest trace_any": "DeviceTest.ListsOfRaysAreTraced", "probe_grid": "GridTest.FewPhotons",
+          "probe_splat": "SplatTest.WhatCannotBeAddedIsCounted", "probe_layers": "LayersTest.WhatIsOutsideTheTileIsLeftOut"}
 failures = []
+passes = {name for names in PROBES for name in names.split()}
 
 
 def check(what, command):
@@ -34,7 +41,10 @@ with tempfile.TemporaryDirectory() as folder:
     for method, scene, *options in RUNS:
         check(f"{method} {scene}",
               [PELLUCID, "render", scene, "-i", method, "--spp", "1", "--size", "8x8", "--max-depth", "5",
-               "--device", "Oclgrind", "--strict", "-o", f"{folder}/{scene}.exr", *options])
+               "--device", "Oclgrind", "--strict", "-o", f"{folder}/{scene}.exr", "--stats", f"{folder}/stats.json",
+               *options])
+        stats = json.loads(pathlib.Path(folder, "stats.json").read_text())
+        passes |= {one["name"] for one in stats["passes"]} | ({"aov"} if "albedo" in "".join(options) else set())
     # Code for effects that the scene lacks must not run astray; a scene without light has no light to pick.
     dark = pathlib.Path(folder, "dark.json")
     dark.write_text(json.dumps({
@@ -45,8 +55,11 @@ with tempfile.TemporaryDirectory() as folder:
         check(f"all features {scene}",
               [PELLUCID, "render", scene, "--features", "all", "--spp", "1", "--size", "8x8",
                "--max-depth", "4", "--device", "Oclgrind", "-o", f"{folder}/all.exr"])
-check("layouts", [DEVICE_TESTS, "--gtest_filter=DeviceTest.LayoutsAgree"])
-check("photon grid", [DEVICE_TESTS, "--gtest_filter=GridTest.FewPhotons"])
-check("splats", [DEVICE_TESTS, "--gtest_filter=SplatTest.WhatCannotBeAddedIsCounted"])
-print(f"{len(RUNS) + 5} runs, {len(failures)} with findings")
+for names, test in PROBES.items():
+    check(names, [DEVICE_TESTS, f"--gtest_filter={test}"])
+kernels = {path.stem for path in pathlib.Path(__file__).parents[2].joinpath("kernels/passes").glob("*.cl")}
+if passes != kernels:
+    failures.append("every pass")
+    print(f"passes that no run has, or that there are not: {sorted(passes ^ kernels)}")
+print(f"{len(RUNS) + 2 + len(PROBES)} runs, {len(failures)} with findings")
 sys.exit(bool(failures))

@@ -33,6 +33,21 @@ TEST_F(SourcesTest, EveryFileOnceWithItsLines) {
             "#line 4 \"a.cl\"\nlast\n");
 }
 
+TEST_F(SourcesTest, FilesOfAnOverlayStandInForOthers) {
+  write("a.cl", "#include \"b.h\"\n#include \"c.h\"\n");
+  write("b.h", "ours\n");
+  write("c.h", "shared\n");
+  std::filesystem::create_directories(folder_ + "/other");
+  write("other/b.h", "theirs\n");
+  const std::string text = KernelFiles(folder_, "other").expand("a.cl", "");
+  EXPECT_NE(text.find("theirs"), std::string::npos);
+  EXPECT_EQ(text.find("ours"), std::string::npos);
+  EXPECT_NE(text.find("shared"), std::string::npos);
+  EXPECT_NE(KernelFiles("", "naive").read("geom/triangle.h"),
+            KernelFiles().read("geom/triangle.h"));
+  EXPECT_EQ(KernelFiles("", "naive").read("geom/surface.h"), KernelFiles().read("geom/surface.h"));
+}
+
 TEST_F(SourcesTest, AMissingIncludeNamesItsPlace) {
   write("a.cl", "first\n#include \"gone.h\"\n");
   try {

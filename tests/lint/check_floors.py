@@ -30,6 +30,7 @@ KERNELS = {
     "shared": set(),
     "core": {"shared"},
     "geom": {"shared", "core"},
+    "naive": {"shared", "core", "geom"},
     "camera": _LOW,
     "bsdf": _LOW,
     "light": _LOW,

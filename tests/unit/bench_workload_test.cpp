@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "bench/figure.h"
 #include "bench/method_bench.h"
 #include "bench/render_workload.h"
 #include "scene/load.h"
@@ -64,6 +65,27 @@ TEST(BenchWorkload, AFailureLeavesNoScore) {
   std::vector<MethodCell> cells{cell("a", "path", 0.01, 2), cell("b", "path", 0.04, 2)};
   cells[1].failed = "out of memory";
   EXPECT_TRUE(method_scores(cells).empty());
+}
+
+TEST(BenchFigure, RangesOfMediansAreTheOrderStatisticsOfTheTables) {
+  // [Conover99] table A3, 95 %: so many values are left out at either end.
+  for (const auto& [n, out] : {std::pair{1, 0},
+                               {5, 0},
+                               {6, 0},
+                               {8, 0},
+                               {9, 1},
+                               {11, 1},
+                               {12, 2},
+                               {15, 3},
+                               {20, 5},
+                               {30, 9}}) {
+    std::vector<double> values;
+    for (int i = n; i > 0; --i) values.push_back(i);
+    const MedianRange range = median_range(values);
+    EXPECT_EQ(range.low, out + 1) << n;
+    EXPECT_EQ(range.high, n - out) << n;
+    EXPECT_NEAR(range.median, (n + 1) / 2.0, 0.51) << n;
+  }
 }
 
 }  // namespace
