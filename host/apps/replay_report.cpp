@@ -2,8 +2,10 @@
 #include "apps/replay_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -54,6 +56,15 @@ json three_json(const F4& v) {
   return {v.x, v.y, v.z};
 }
 
+/// Where an event is, in coordinates of the scene's file.
+std::array<double, 3> place_of(const PathEvent& e, const Replay& r) {
+  return {r.origin[0] + double(e.p.x), r.origin[1] + double(e.p.y), r.origin[2] + double(e.p.z)};
+}
+
+std::string place(const PathEvent& e, const Replay& r) {
+  return fmt::format("{:.7g}", fmt::join(place_of(e, r), " "));
+}
+
 /// Densities are recorded as 0 where a strategy cannot be.
 std::string density(float pdf) {
   return pdf > 0 ? fmt::format("{:.4g}", pdf) : "-";
@@ -82,7 +93,7 @@ std::vector<WalkVertex> vertices_of(const std::vector<PathEvent>& walk) {
   return vertices;
 }
 
-std::string walk_table(const std::vector<PathEvent>& walk, const Scene& scene) {
+std::string walk_table(const std::vector<PathEvent>& walk, const Replay& r, const Scene& scene) {
   std::vector<std::vector<std::string>> rows{
       {"vertex", "position", "normal", "material", "beta", "onward", "pdf", "dVCM", "dVC"}};
   for (const WalkVertex& v : vertices_of(walk)) {
@@ -90,7 +101,7 @@ std::string walk_table(const std::vector<PathEvent>& walk, const Scene& scene) {
     const bool start = at.kind == EVENT_START;
     const std::string pdf = !v.left ? "ends" : v.left->d.w > 0 ? density(v.left->d.w) : "delta";
     rows.push_back(
-        {std::to_string(at.depth), three(at.p), start ? "-" : three(at.d),
+        {std::to_string(at.depth), place(at, r), start ? "-" : three(at.d),
          start ? (at.on_light ? "(light)" : "(camera)") : name_of_material(scene, at.material),
          three(at.value), v.left ? three(v.left->d) : "-", pdf, density(at.brought.x),
          density(at.brought.y)});
@@ -98,11 +109,11 @@ std::string walk_table(const std::vector<PathEvent>& walk, const Scene& scene) {
   return markdown_table(std::move(rows)) + "\n";
 }
 
-json walk_json(const std::vector<PathEvent>& walk, const Scene& scene) {
+json walk_json(const std::vector<PathEvent>& walk, const Replay& r, const Scene& scene) {
   json vertices = json::array();
   for (const WalkVertex& v : vertices_of(walk)) {
     const PathEvent& at = *v.arrived;
-    json vertex{{"depth", at.depth}, {"p", three_json(at.p)}, {"beta", three_json(at.value)}};
+    json vertex{{"depth", at.depth}, {"p", place_of(at, r)}, {"beta", three_json(at.value)}};
     if (at.kind == EVENT_VERTEX) {
       vertex["normal"] = three_json(at.d);
       vertex["material"] = name_of_material(scene, at.material);
@@ -127,7 +138,8 @@ std::string brought_table(const Replay& replay) {
                     fmt::format("{:.2f} %", 100 * share_of(e, replay)), std::to_string(e.s),
                     std::to_string(e.t), std::to_string(length_of(e)), fmt::format("{:.4g}", e.p.w),
                     three(e.value), density(e.d.w), density(e.value.w),
-                    light_path_of(e) == NONE ? "-" : std::to_string(light_path_of(e)), three(e.p)});
+                    light_path_of(e) == NONE ? "-" : std::to_string(light_path_of(e)),
+                    place(e, replay)});
   }
   return markdown_table(std::move(rows), 1) + "\n";
 }
@@ -141,7 +153,7 @@ json event_json(const PathEvent& e, const Replay& replay) {
           {"value", three_json(e.value)},
           {"brought", three_json(e.brought)},
           {"share", share_of(e, replay)},
-          {"p", three_json(e.p)},
+          {"p", place_of(e, replay)},
           {"wi", three_json(e.d)},
           {"pdf_chance", e.d.w},
           {"pdf_light_sample", e.value.w},
@@ -169,10 +181,10 @@ std::string replay_text(const Replay& r, const Scene& scene) {
                     : fmt::format("added up, they differ from the film's {:.6g}", r.luminance),
         brought_table(r));
   }
-  text += fmt::format("\neye path\n{}", walk_table(r.eye, scene));
+  text += fmt::format("\neye path\n{}", walk_table(r.eye, r, scene));
   if (!r.light.empty())
     text += fmt::format("\nlight path {}, which takes part in the brightest\n{}",
-                        r.light.front().path, walk_table(r.light, scene));
+                        r.light.front().path, walk_table(r.light, r, scene));
   return text;
 }
 
@@ -187,8 +199,8 @@ json replay_json(const Replay& r, const Scene& scene) {
           {"luminance", luminance_of(r.sum)},
           {"adds_up", r.adds_up()},
           {"brought", brought},
-          {"eye_path", walk_json(r.eye, scene)},
-          {"light_path", r.light.empty() ? json() : walk_json(r.light, scene)},
+          {"eye_path", walk_json(r.eye, r, scene)},
+          {"light_path", r.light.empty() ? json() : walk_json(r.light, r, scene)},
           {"light_path_number", r.light.empty() ? json() : json(r.light.front().path)}};
 }
 

@@ -137,6 +137,7 @@ Replay replay(const Device& device, const PackedScene& scene, const Integrator& 
 
   Replay out;
   out.x = x, out.y = y, out.pass = pass;
+  out.origin = scene.origin;
   out.film = record.film;
   out.luminance = record.luminance;
   SampleSum sum(

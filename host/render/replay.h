@@ -16,6 +16,7 @@ namespace pellucid {
 struct Replay {
   int x = 0, y = 0;  ///< pixel of the whole picture
   std::uint64_t pass = 0;
+  std::array<double, 3> origin{};  ///< that positions are counted from, in coordinates of the file
   std::vector<PathEvent> eye;      ///< the walk from the camera, in order
   std::vector<PathEvent> brought;  ///< all light of the sample, brightest first
   std::vector<PathEvent> light;  ///< the light path that takes part in the brightest of it; or none

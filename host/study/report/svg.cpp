@@ -145,6 +145,7 @@ std::vector<AxisTick> LogAxis::time_ticks() const {
 
 std::vector<AxisTick> LogAxis::percent_ticks() const {
   std::vector<AxisTick> ticks;
+  if (!(low > 0 && high >= low && std::isfinite(high))) return ticks;  // an axis without values
   const bool fine = high / low < 300;
   const int first = int(std::floor(std::log10(low))), last = int(std::ceil(std::log10(high)));
   const int step = 1 + (last - first) / 8;
