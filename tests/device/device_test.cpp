@@ -9,6 +9,7 @@
 #include "render/math_probe.h"
 #include "render/selftest.h"
 #include "render/session.h"
+#include "stability/probes.h"
 #include "stability/traced_scene.h"
 
 namespace pellucid {
@@ -98,6 +99,20 @@ TEST(DeviceTest, ListsOfRaysAreTraced) {
     }
     EXPECT_EQ(traced.errors(), 0u);
   }
+}
+
+TEST(DeviceTest, FramesAndWalks) {
+  using namespace stability;
+  const Lab lab{Device::open("")};
+  for (const DeviceFrame& f : FrameProbe(lab).frames({{0, 0, -1, 0}, {0.6f, 0, 0.8f, 0}}))
+    EXPECT_NEAR(f.s.x * f.t.x + f.s.y * f.t.y + f.s.z * f.t.z, 0, 2e-7);
+  Scene scene = empty_scene(1.0);
+  scene.materials[0].kind = MaterialKind::mirror;
+  add_shape(scene, lump(500));
+  constexpr uint bounces = 8;
+  const std::vector<TraceRay> rays{ray_along({}, {1, 0, 0}), ray_along({}, {0, 0.6, 0.8})};
+  for (const WalkEnd& end : WalkProbe(lab, scene).walk(rays, bounces))
+    EXPECT_EQ(end.bounces, bounces);
 }
 
 /// The order of parameters comes from buffers.h on both sides; the device compiler's names prove

@@ -23,7 +23,7 @@ RUNS = [("path", "gallery"), ("nee", "four-balls-sun"), ("reference", "four-ball
 # What no render runs, by the test of the device that does.
 PROBES = {"probe_layout": "DeviceTest.LayoutsAgree", "probe_math": "DeviceTest.ArithmeticIsExactEnough",
           "trace_closest trace_any": "DeviceTest.ListsOfRaysAreTraced", "probe_grid": "GridTest.FewPhotons",
-          "probe_splat": "SplatTest.WhatCannotBeAddedIsCounted", "probe_layers": "LayersTest.WhatIsOutsideTheTileIsLeftOut"}
+          "probe_frame probe_walk": "DeviceTest.FramesAndWalks", "probe_splat": "SplatTest.WhatCannotBeAddedIsCounted", "probe_layers": "LayersTest.WhatIsOutsideTheTileIsLeftOut"}
 failures = []
 passes = {name for names in PROBES for name in names.split()}
 
@@ -55,11 +55,13 @@ with tempfile.TemporaryDirectory() as folder:
         check(f"all features {scene}",
               [PELLUCID, "render", scene, "--features", "all", "--spp", "1", "--size", "8x8",
                "--max-depth", "4", "--device", "Oclgrind", "-o", f"{folder}/all.exr"])
+check("replay", [PELLUCID, "render", "four-balls-ceiling", "-i", "vcm", "--size", "8x8", "--max-depth", "5",
+                 "--device", "Oclgrind", "--replay", "3,4,0"])
 for names, test in PROBES.items():
     check(names, [DEVICE_TESTS, f"--gtest_filter={test}"])
 kernels = {path.stem for path in pathlib.Path(__file__).parents[2].joinpath("kernels/passes").glob("*.cl")}
 if passes != kernels:
     failures.append("every pass")
     print(f"passes that no run has, or that there are not: {sorted(passes ^ kernels)}")
-print(f"{len(RUNS) + 2 + len(PROBES)} runs, {len(failures)} with findings")
+print(f"{len(RUNS) + 3 + len(PROBES)} runs, {len(failures)} with findings")
 sys.exit(bool(failures))
