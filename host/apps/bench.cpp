@@ -43,6 +43,15 @@ struct BenchCommand {
   ExitCode run_sorts(const CommonOptions& common) const;
   ExitCode run_hard_cases(const CommonOptions& common) const;
   ExitCode run_robustness(const CommonOptions& common) const;
+  /// What all benchmarks that take turns are told.
+  template <typename Options>
+  Options options_with(Progress& progress) const {
+    Options options;
+    options.repeats = repeats.value_or(options.repeats);
+    options.plan.kernel_dir = kernel_dir;
+    options.progress = [&](const std::string& text) { progress.update(text); };
+    return options;
+  }
   ExitCode judge(const std::vector<std::string>& worse) const;
 };
 
@@ -64,10 +73,7 @@ ExitCode BenchCommand::run_rays(const CommonOptions& common) const {
   const Device target = device.open();
   const std::vector<Scene> scenes = open_scenes({"rays-1k", "rays-100k", "rays-1m"});
   Progress progress("bench");
-  RayBenchOptions options;
-  options.repeats = repeats.value_or(options.repeats);
-  options.plan.kernel_dir = kernel_dir;
-  options.progress = [&](const std::string& text) { progress.update(text); };
+  const auto options = options_with<RayBenchOptions>(progress);
   const nlohmann::json document = rays_document(bench_rays(target, scenes, options), target.info());
   if (common.wants_text()) print_result(rays_text(document));
   write_json(common.json, document);
@@ -92,10 +98,7 @@ ExitCode BenchCommand::run_sampler(const CommonOptions& common) const {
   std::vector<Scene> scenes = open_scenes(names);
   const Device target = device.open();
   Progress progress("bench");
-  SamplerBenchOptions options;
-  options.repeats = repeats.value_or(options.repeats);
-  options.plan.kernel_dir = kernel_dir;
-  options.progress = [&](const std::string& text) { progress.update(text); };
+  const auto options = options_with<SamplerBenchOptions>(progress);
   const nlohmann::json document = sampler_document(
       bench_samplers(target, std::move(scenes), find_integrator("path"), options), target.info());
   if (common.wants_text()) print_result(sampler_text(document));
@@ -106,10 +109,7 @@ ExitCode BenchCommand::run_sampler(const CommonOptions& common) const {
 ExitCode BenchCommand::run_sorts(const CommonOptions& common) const {
   const Device target = device.open();
   Progress progress("bench");
-  SortBenchOptions options;
-  options.repeats = repeats.value_or(options.repeats);
-  options.plan.kernel_dir = kernel_dir;
-  options.progress = [&](const std::string& text) { progress.update(text); };
+  const auto options = options_with<SortBenchOptions>(progress);
   const nlohmann::json document = sorts_document(bench_sorts(target, options), target.info());
   if (common.wants_text()) print_result(sorts_text(document));
   write_json(common.json, document);
@@ -132,10 +132,7 @@ ExitCode BenchCommand::run_robustness(const CommonOptions& common) const {
   const Device target = device.open();
   const std::vector<Scene> scenes = open_scenes({"rays-1k", "rays-100k", "rays-1m"});
   Progress progress("bench");
-  RobustBenchOptions options;
-  options.repeats = repeats.value_or(options.repeats);
-  options.plan.kernel_dir = kernel_dir;
-  options.progress = [&](const std::string& text) { progress.update(text); };
+  const auto options = options_with<RobustBenchOptions>(progress);
   const std::vector<PriceCell> cells =
       bench_robustness(target, scenes, find_integrator("path"), options);
   std::vector<stability::Faults> faults;

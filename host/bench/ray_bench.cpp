@@ -93,18 +93,8 @@ RayBench bench_rays(const Device& device, const std::vector<Scene>& scenes,
     RayTracer ours(device, packed, options.plan);
     const Contest contest{ours,    embree.get(),   robust.get(), Clock{device.info().cpu, threads},
                           threads, options.repeats};
-    const std::vector<TraceRay> primary =
-        primary_rays(packed.camera, scene.settings.width, scene.settings.height);
-    ours.set_rays(primary);
-    ours.trace(false);
-    const std::vector<TraceHit> hits = ours.hits();
-    const float light[3] = {0.0f, 2.9f, 0.0f};  // under the room's ceiling
-    constexpr double light_side = 2.0;
-    const std::vector<std::pair<RayKind, std::vector<TraceRay>>> sets{
-        {RayKind::primary, primary},
-        {RayKind::diffuse, diffuse_rays(packed, primary, hits)},
-        {RayKind::shadow, shadow_rays(packed, primary, hits, light, light_side)}};
-    for (const auto& [kind, rays] : sets) {
+    for (const auto& [kind, rays] :
+         ray_sets(ours, packed, scene.settings.width, scene.settings.height)) {
       if (options.progress)
         options.progress(fmt::format("{}, {}", scene.name, ray_kind_name(kind)));
       out.rays.push_back(contest.run(kind, rays));

@@ -77,7 +77,7 @@ const char* ray_kind_name(RayKind kind) {
   return kind == RayKind::primary ? "primary" : kind == RayKind::diffuse ? "diffuse" : "shadow";
 }
 
-std::vector<TraceRay> primary_rays(const ::Camera& camera, int width, int height) {
+static std::vector<TraceRay> primary_rays(const ::Camera& camera, int width, int height) {
   std::vector<TraceRay> rays;
   rays.reserve(std::size_t(width) * std::size_t(height));
   for (int y = 0; y < height; ++y)
@@ -89,8 +89,9 @@ std::vector<TraceRay> primary_rays(const ::Camera& camera, int width, int height
   return rays;
 }
 
-std::vector<TraceRay> diffuse_rays(const PackedScene& scene, const std::vector<TraceRay>& rays,
-                                   const std::vector<TraceHit>& hits) {
+static std::vector<TraceRay> diffuse_rays(const PackedScene& scene,
+                                          const std::vector<TraceRay>& rays,
+                                          const std::vector<TraceHit>& hits) {
   std::vector<TraceRay> out;
   out.reserve(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -105,9 +106,10 @@ std::vector<TraceRay> diffuse_rays(const PackedScene& scene, const std::vector<T
   return out;
 }
 
-std::vector<TraceRay> shadow_rays(const PackedScene& scene, const std::vector<TraceRay>& rays,
-                                  const std::vector<TraceHit>& hits, const float* center,
-                                  double extent) {
+static std::vector<TraceRay> shadow_rays(const PackedScene& scene,
+                                         const std::vector<TraceRay>& rays,
+                                         const std::vector<TraceHit>& hits, const float* center,
+                                         double extent) {
   std::vector<TraceRay> out;
   out.reserve(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -120,6 +122,18 @@ std::vector<TraceRay> shadow_rays(const PackedScene& scene, const std::vector<Tr
     out.push_back(ray_from(start.p, d * (1.0 / distance), distance));
   }
   return out;
+}
+
+std::vector<RaySet> ray_sets(RayTracer& tracer, const PackedScene& scene, int width, int height) {
+  const std::vector<TraceRay> primary = primary_rays(scene.camera, width, height);
+  tracer.set_rays(primary);
+  tracer.trace(false);
+  const std::vector<TraceHit> hits = tracer.hits();
+  const float light[3] = {0.0f, 2.9f, 0.0f};  // under the room's ceiling
+  constexpr double light_side = 2.0;
+  return {{RayKind::primary, primary},
+          {RayKind::diffuse, diffuse_rays(scene, primary, hits)},
+          {RayKind::shadow, shadow_rays(scene, primary, hits, light, light_side)}};
 }
 
 }  // namespace pellucid

@@ -14,17 +14,14 @@ inline bool wants_any_hit(RayKind kind) {
   return kind == RayKind::shadow;
 }
 
-/// One ray per pixel through its centre.
-std::vector<TraceRay> primary_rays(const ::Camera& camera, int width, int height);
+struct RaySet {
+  RayKind kind = RayKind::primary;
+  std::vector<TraceRay> rays;
+};
 
-/// From each hit of `rays`, a cosine-distributed ray on the side it came from. Misses are left out.
-std::vector<TraceRay> diffuse_rays(const PackedScene& scene, const std::vector<TraceRay>& rays,
-                                   const std::vector<TraceHit>& hits);
-
-/// From each hit of `rays`, a ray to a random point of a horizontal square of side `extent` around
-/// `center` [3].
-std::vector<TraceRay> shadow_rays(const PackedScene& scene, const std::vector<TraceRay>& rays,
-                                  const std::vector<TraceHit>& hits, const float* center,
-                                  double extent);
+/// Of a room as tests make it, for a picture of that size: a ray per pixel through its centre; from
+/// each of their hits a cosine-distributed ray on the side it came from, and a ray to a random
+/// point of a square under the ceiling. `tracer` finds the hits and keeps the rays of the picture.
+std::vector<RaySet> ray_sets(RayTracer& tracer, const PackedScene& scene, int width, int height);
 
 }  // namespace pellucid

@@ -80,19 +80,9 @@ PriceCell Contest::cell(const std::string& what) const {
 std::vector<PriceCell> Contest::rays() const {
   RayTracer ours(device_, packed_, options_.plan);
   RayTracer naive(device_, for_naive_rays(packed_), naive_plan_);
-  const std::vector<TraceRay> primary =
-      primary_rays(packed_.camera, scene_.settings.width, scene_.settings.height);
-  ours.set_rays(primary);
-  ours.trace(false);
-  const std::vector<TraceHit> hits = ours.hits();
-  const float light[3] = {0.0f, 2.9f, 0.0f};  // under the room's ceiling
-  constexpr double light_side = 2.0;
   std::vector<PriceCell> cells;
-  for (RayKind kind : {RayKind::primary, RayKind::diffuse, RayKind::shadow}) {
-    const std::vector<TraceRay> rays = kind == RayKind::primary ? primary
-                                       : kind == RayKind::diffuse
-                                           ? diffuse_rays(packed_, primary, hits)
-                                           : shadow_rays(packed_, primary, hits, light, light_side);
+  for (const auto& [kind, rays] :
+       ray_sets(ours, packed_, scene_.settings.width, scene_.settings.height)) {
     const bool any = wants_any_hit(kind);
     ours.set_rays(rays), naive.set_rays(rays);
     PriceCell c = cell(ray_kind_name(kind));

@@ -1,10 +1,10 @@
 // camera_trace: one eye path per pixel of a slice: emission that it meets, light samples, and
 // vertices stored for connections and merging.
 // Reads: scene, filter. Writes: samples [pixels of the tile], eye_vertices, eye_last, eye_first
-// (their number) [pixels of the slice], vertex_counts, layers, diag. Domain: pixels of the slice.
-// Atomics: vertex_counts, layers, diag. Next: vertex_scan, or film_add.
+// (their number) [pixels of the slice], vertex_counts, layers, record, diag. Domain: pixels of
+// the slice. Atomics: vertex_counts, layers, record, diag. Next: vertex_scan, or film_add.
 // Flags: INTG_NEE, INTG_MIS, INTG_SPLAT, INTG_CONNECT, INTG_MERGE, INTG_COMPACT, INTG_LAYERS,
-// INTG_SOBOL, INTG_FILTER.
+// INTG_RECORD, INTG_SOBOL, INTG_FILTER.
 #include "passes/bundles.h"
 #include "passes/tile.h"
 #include "transport/path.h"

@@ -1,7 +1,8 @@
 // connect: joins each vertex of a pixel's eye path with each of the light path paired with it.
 // Reads: scene, light and eye vertices with their order. Writes: samples [pixels of the tile]
-// (adds), layers, diag. Domain: pixels of the slice. Atomics: layers, diag. Next: film_add.
-// Flags: INTG_CONNECT, INTG_MERGE, INTG_NEE, INTG_COMPACT, INTG_LAYERS.
+// (adds), layers, record, diag. Domain: pixels of the slice. Atomics: layers, record, diag. Next:
+// film_add.
+// Flags: INTG_CONNECT, INTG_MERGE, INTG_NEE, INTG_COMPACT, INTG_LAYERS, INTG_RECORD.
 #include "passes/bundles.h"
 #include "shared/pairing.h"
 #include "transport/connect.h"

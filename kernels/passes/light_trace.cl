@@ -1,10 +1,10 @@
 // light_trace: walks from the lights. Each vertex with a spread lobe is splatted to the pixel that
 // sees it, and stored for connections and merging.
 // Reads: scene, filter. Writes: splats [pixels of the tile], light_vertices, light_last,
-// light_first (their number) [paths of the launch], vertex_counts, layers, diag. Domain: light
-// paths of the launch. Atomics: splats, vertex_counts, layers, diag. Next: vertex_scan, or
-// film_add. Flags: INTG_SPLAT, INTG_CONNECT, INTG_MERGE, INTG_NEE, INTG_COMPACT, INTG_LAYERS,
-// INTG_SOBOL, INTG_FILTER.
+// light_first (their number) [paths of the launch], vertex_counts, layers, record, diag. Domain:
+// light paths of the launch. Atomics: splats, vertex_counts, layers, record, diag. Next:
+// vertex_scan, or film_add. Flags: INTG_SPLAT, INTG_CONNECT, INTG_MERGE, INTG_NEE, INTG_COMPACT,
+// INTG_LAYERS, INTG_RECORD, INTG_SOBOL, INTG_FILTER.
 #include "film/layers.h"
 #include "passes/bundles.h"
 #include "transport/light_walk.h"

@@ -1,7 +1,8 @@
 // merge: gathers the light vertices around every vertex of a pixel's eye path.
 // Reads: scene, eye vertices with their order, photon_positions, photons, grid_cells. Writes:
-// samples [pixels of the tile] (adds), layers, diag. Domain: pixels of the slice. Atomics: layers,
-// diag. Next: film_add. Flags: INTG_MERGE, INTG_NEE, INTG_CONNECT, INTG_COMPACT, INTG_LAYERS.
+// samples [pixels of the tile] (adds), layers, record, diag. Domain: pixels of the slice. Atomics:
+// layers, record, diag. Next: film_add. Flags: INTG_MERGE, INTG_NEE, INTG_CONNECT, INTG_COMPACT,
+// INTG_LAYERS, INTG_RECORD.
 #include "passes/bundles.h"
 #if INTG_MERGE
 #include "transport/merge.h"

@@ -1,7 +1,7 @@
 // pt_mega: one camera path per pixel, whole.
-// Reads: scene, filter. Writes: samples [pixels], layers, diag. Domain: pixels. Atomics: layers,
-// diag. Next: film_add. Flags: INTG_NEE, INTG_MIS, INTG_UNIFORM, INTG_LAYERS, INTG_SOBOL,
-// INTG_FILTER.
+// Reads: scene, filter. Writes: samples [pixels], layers, record, diag. Domain: pixels. Atomics:
+// layers, record, diag. Next: film_add. Flags: INTG_NEE, INTG_MIS, INTG_UNIFORM, INTG_LAYERS,
+// INTG_RECORD, INTG_SOBOL, INTG_FILTER.
 #include "passes/bundles.h"
 #include "passes/tile.h"
 #include "transport/path.h"
