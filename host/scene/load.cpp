@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "scene/bare_model.h"
-#include "scene/coarse_normals.h"
 #include "scene/coplanar.h"
 #include "scene/distance.h"
 #include "scene/model.h"
@@ -86,8 +85,6 @@ void finish_warnings(SceneBuilder& builder) {
   for (const auto warning :
        {distance_warning, coplanar_warning, needle_warning, thin_glass_warning})
     if (std::string text = warning(scene); !text.empty()) scene.warnings.push_back(std::move(text));
-  if (std::string text = coarse_normals_note(scene); !text.empty())
-    scene.notes.push_back(std::move(text));
 }
 
 /// The document of a scene or of a bare model, with what the command line changes.

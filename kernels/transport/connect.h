@@ -22,12 +22,11 @@ INLINE int connect_vertices(PRIVATE const SceneData* scene, Launch launch,
   real d2 = dot3(d, d);
   if (!(d2 > REAL(0.0))) return 0;
   real3 w = d * (REAL(1.0) / r_sqrt(d2));
-  real cos_eye, cos_light;
-  BsdfEval e = vertex_eval(scene, &eye->v, w, &cos_eye);
+  BsdfEval e = vertex_eval(scene, &eye->v, w);
   if (is_black(e.f)) return 0;
-  BsdfEval l = vertex_eval(scene, &light->v, -w, &cos_light);
+  BsdfEval l = vertex_eval(scene, &light->v, -w);
   if (is_black(l.f)) return 0;
-  link->value = eye->beta * e.f * l.f * light->beta * (cos_eye * cos_light / d2);
+  link->value = eye->beta * e.f * l.f * light->beta * (REAL(1.0) / d2);
   real survive_e = (real)eye->v.material.survive, survive_l = (real)light->v.material.survive;
   real reverse_e = vertex_pdf_reverse(scene, &eye->v, w) * survive_e;
   real reverse_l = vertex_pdf_reverse(scene, &light->v, -w) * survive_l;

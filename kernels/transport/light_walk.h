@@ -80,13 +80,12 @@ INLINE int camera_link(PRIVATE const SceneData* scene, Launch launch, Camera cam
   real3 d = load3(camera.origin) - v->surface.p;
   real d2 = dot3(d, d);
   real3 wi = d * (REAL(1.0) / r_sqrt(d2));
-  real cos_wi;
-  BsdfEval e = vertex_eval(scene, v, wi, &cos_wi);
+  BsdfEval e = vertex_eval(scene, v, wi);
   if (is_black(e.f)) return 0;
   // [Georgiev12 eq. 26]: what eye paths would have, by area, is what a pixel's average asks for.
   real pdf_w = camera_pdf_w(camera, -wi);
   real scale = pdf_w / (d2 * (real)launch.light_paths);
-  link->value = w->walk.beta * e.f * (cos_wi * scale);
+  link->value = w->walk.beta * e.f * scale;
   link->weight = REAL(1.0);
   link->pdf_w = pdf_w;
 #if INTG_CONNECT

@@ -14,7 +14,7 @@ typedef struct Merge {
 } Merge;
 
 /// The radiance that the photon brings to `eye` if they were one point, over `launch.merge_scale`.
-/// Photons count power through the geometric surface; f |wi.ns| / |wi.ng| makes radiance of it. Not
+/// Photons count power through the geometric surface; K / |wi.ng| makes radiance of it. Not
 /// by their own normal: on round surfaces that ratio has no bound. 0 where nothing is scattered.
 INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE const EndVertex* eye,
                         Photon photon, PRIVATE Merge* merge) {
@@ -25,10 +25,9 @@ INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE c
   // it: it stays on the side that it came to.
   real cos_g = dot3(ng, wi);
   if (!(cos_g * dot3(photon_ng, wi) > REAL(0.0))) return 0;
-  real cos_wi;
-  BsdfEval e = vertex_eval(scene, &eye->v, wi, &cos_wi);
+  BsdfEval e = vertex_eval(scene, &eye->v, wi);
   if (is_black(e.f)) return 0;
-  real scale = cos_wi / r_abs(cos_g) * (real)launch.merge_scale;
+  real scale = (real)launch.merge_scale / r_abs(cos_g);
   merge->value = eye->beta * e.f * load3(photon.beta_dVC) * scale;
   merge->weight = REAL(1.0);
 #if INTG_PARTIALS

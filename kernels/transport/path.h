@@ -137,8 +137,7 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
 #if INTG_NEE
   LightSample light = light_sample(scene, v->surface.p, rng_words(rng, DIM_LIGHT(bounce)));
   if (is_black(light.radiance)) return;
-  real cos_wi;
-  BsdfEval e = vertex_eval(scene, v, light.wi, &cos_wi);
+  BsdfEval e = vertex_eval(scene, v, light.wi);
   if (is_black(e.f)) return;
   Ray shadow;
   if (light.at_infinity) {
@@ -151,7 +150,7 @@ INLINE void walk_nee(PRIVATE const SceneData* scene, Launch launch, Rng rng, uin
   ++walk->rays;
   if (bvh_trace(scene, shadow, 1).prim != NONE) return;
   Found found;
-  found.value = walk->beta * e.f * light.radiance * (cos_wi / light.pdf_w);
+  found.value = walk->beta * e.f * light.radiance * (REAL(1.0) / light.pdf_w);
   found.weight = nee_weight(scene, launch, v, walk, &light, e);
   found.s = 1u;
   found.depth = bounce + 2u;

@@ -71,7 +71,7 @@ INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q,
                (float_exponent_above((float)v->surface.offset) << 24);
   s.ng = octahedral_pack(v->surface.ng);
   s.ns = octahedral_pack(v->surface.ns);
-  s.wo = octahedral_pack(to_world(v->frame, v->context.wo));
+  s.wo = octahedral_pack(v->wo);
   s.beta = rgbe_pack(beta);
   s.dVCM = float24_pack((float)q.dVCM) | (depth & 0xffu);
   s.dVC = float24_pack((float)partials_dVC(q)) | (depth >> 8);
@@ -116,7 +116,7 @@ INLINE StoredVertex vertex_pack(PRIVATE const Vertex* v, real3 beta, Partials q,
   s.p_offset = to_f4(v->surface.p, v->surface.offset);
   s.ng_u = to_f4(v->surface.ng, tex_u);
   s.ns_v = to_f4(v->surface.ns, tex_v);
-  s.wo_dVCM = to_f4(to_world(v->frame, v->context.wo), q.dVCM);
+  s.wo_dVCM = to_f4(v->wo, q.dVCM);
   s.beta_dVC = to_f4(beta, partials_dVC(q));
   s.material = v->surface.material;
   s.flags = stored_flags(v->surface.flags, q);

@@ -107,7 +107,7 @@ INLINE int walk_scatter(PRIVATE const SceneData* scene, Launch launch, Rng rng, 
 #if INTG_UNIFORM
   BsdfSample s = vertex_sample_uniform(scene, v, u.x, u.y, u.z);
 #else
-  BsdfSample s = vertex_sample(scene, v, u.x, u.y, u.z);
+  BsdfSample s = vertex_sample(scene, v, u.x, u.y, u.z, u.w / survive);
 #endif
   if (is_black(s.weight)) return 0;
   walk->beta *= s.weight * (REAL(1.0) / survive);

@@ -30,6 +30,7 @@ class PathDensities {
   /// Delta lobe at node i: density of drawing the point on the light's side over that of drawing
   /// the one on the camera's side, each [1/sr]: the inverse ratio of their solid angles.
   double delta_ratio(std::size_t i) const;
+  double glass_index(const Surface& s) const;
   double distance2(std::size_t i) const {  ///< of edge i, which ends on node i
     const glm::dvec3 d = to_dvec3(point(i + 1)) - to_dvec3(point(i));
     return glm::dot(d, d);
@@ -104,28 +105,54 @@ inline double PathDensities::scatter(std::size_t i, std::size_t towards, int imp
   const double survive = double(v.material.survive);
   if (node.delta) return onward ? survive : survive * delta_ratio(i - 1);
   if (v.black) return 0.0;
-  real cos_to;
-  return survive * double(vertex_eval(&twin_.data, &v, to, &cos_to).pdf_w);
+  return survive * double(vertex_eval(&twin_.data, &v, to).pdf_w);
 }
 
-inline double PathDensities::delta_ratio(std::size_t i) const {
-  const Surface& s = path_.nodes[i].surface;
-  const glm::dvec3 ns = to_dvec3(s.ns), a = -to_dvec3(path_.edges[i]),
-                   b = to_dvec3(path_.edges[i + 1]);
-  const double cos_a = glm::dot(ns, a), cos_b = glm::dot(ns, b);
-  if (cos_a * cos_b > 0) return 1.0;  // reflected
-  // The glass of this surface: its own, or of the one part of a mix that is smooth.
+/// Index of the smooth glass of this surface: its own, or of the one part of a mix that is smooth;
+/// 1 if there is none, so that light goes straight on.
+inline double PathDensities::glass_index(const Surface& s) const {
   const ::Material mix = twin_.packed.materials[s.material];
   const ::Material* glass = &twin_.packed.materials[s.material];
   if (mix.kind == MATERIAL_MIX)
     for (uint first = mix.first_part, j = 0; j < mix.part_count; ++j)
       if (twin_.packed.materials[first + j].kind == MATERIAL_DIELECTRIC)
         glass = &twin_.packed.materials[first + j];
-  if (glass->kind != MATERIAL_DIELECTRIC) return 1.0;  // straight on
-  // n^2 |cos| dw is the same on both sides; a in front means outside.
-  const double front_a = glm::dot(to_dvec3(s.ng), a);
-  const double n = double(glass->ior), n_a = front_a > 0 ? 1 : n, n_b = front_a > 0 ? n : 1;
-  return n_a * n_a * std::abs(cos_a) / (n_b * n_b * std::abs(cos_b));
+  return glass->kind == MATERIAL_DIELECTRIC ? double(glass->ior) : 1.0;
+}
+
+inline double PathDensities::delta_ratio(std::size_t i) const {
+  const Surface& s = path_.nodes[i].surface;
+  const glm::dvec3 ns = to_dvec3(s.ns), ng = to_dvec3(s.ng), light = -to_dvec3(path_.edges[i]),
+                   camera = to_dvec3(path_.edges[i + 1]);
+  const auto mirrored = [](const glm::dvec3& w, const glm::dvec3& n) {
+    return w - 2 * glm::dot(w, n) * n;
+  };
+  // By the sides of the facet; in front means outside.
+  const double side_l = glm::dot(ng, light), side_c = glm::dot(ng, camera);
+  const double n = side_l * side_c > 0 ? 1 : glass_index(s);
+  const double n_l = side_l > 0 ? 1 : n, n_c = side_c > 0 ? 1 : n;
+  const double turn = glm::dot(ns, ng) < 0 ? -1 : 1;
+  const auto above = [&](const glm::dvec3& w, double side) {
+    return turn * side * glm::dot(ns, w) > 0;
+  };
+  // To the camera leaves what the lobe has drawn or its image by the shading plane, if both can be
+  // met in proportion to their cosines.
+  const glm::dvec3 o = above(camera, side_c) ? camera : mirrored(camera, ns);
+  const double met = std::max(glm::dot(ng, o) * side_c, 0.0) / std::abs(side_c),
+               met_image = std::max(glm::dot(ng, mirrored(o, ns)) * side_c, 0.0) / std::abs(side_c);
+  const double share = std::abs(side_c) / (met + met_image);
+  // The lobe has met the light or its image by the facet: tangents tell which [Snell].
+  const glm::dvec3 images[2] = {light, mirrored(light, ng)};
+  double sum = 0, chosen = 0, least = 1e30;
+  for (const glm::dvec3& l : images) {
+    if (!above(l, side_l)) continue;
+    const double z = std::abs(glm::dot(ns, l));
+    const glm::dvec3 tangents = n_l * (l - glm::dot(ns, l) * ns) + n_c * (o - glm::dot(ns, o) * ns);
+    sum += z;
+    if (glm::length(tangents) < least) least = glm::length(tangents), chosen = z;
+  }
+  // n^2 |cos| dw is the same on both sides.
+  return n_l * n_l * chosen / (n_c * n_c * std::abs(glm::dot(ns, o))) / (chosen / sum * share);
 }
 
 inline double PathDensities::light_area() const {

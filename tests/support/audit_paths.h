@@ -155,9 +155,8 @@ void PathFinder<Found>::light_sample_found(Rng rng, uint bounce, const Vertex& v
   if (is_black(gathered)) return;
   const U4 words = rng_words(rng, DIM_LIGHT(bounce));
   const LightSample light = light_sample(&scene_, v.surface.p, words);
-  real cos_wi;
-  const BsdfEval e = vertex_eval(&scene_, &v, light.wi, &cos_wi);
-  const real3 value = walk.beta * e.f * light.radiance * (cos_wi / light.pdf_w);
+  const BsdfEval e = vertex_eval(&scene_, &v, light.wi);
+  const real3 value = walk.beta * e.f * light.radiance * (real(1) / light.pdf_w);
   FullPath path = joined(1, int(bounce), -light.wi, weight_of(gathered, value));
   path.light = light_pick(&scene_, words.x, words.w);
   const ::Light& info = scene_.lights[path.light];

@@ -49,8 +49,7 @@ class Replay {
     s.delta = path_.nodes[i].delta;
     const double ratio = s.delta ? exact_.delta_ratio(i) : 1.0;
     s.reverse = real(onward ? ratio : 1 / ratio);
-    real cos_w;
-    s.pdf_w = s.delta ? real(0) : vertex_eval(&twin_.data, &v, w, &cos_w).pdf_w;
+    s.pdf_w = s.delta ? real(0) : vertex_eval(&twin_.data, &v, w).pdf_w;
     return s;
   }
   void leave(const Vertex& v, std::size_t i, real3 w, bool onward, Walk& walk) const {
@@ -102,8 +101,7 @@ class Replay {
     Walk walk = eye_walk_;
     walk.partials = eye_[0].partials;
     LightSample light = light_sample_towards(v.surface.p);
-    real cos_wi;
-    const BsdfEval e = vertex_eval(&twin_.data, &v, light.wi, &cos_wi);
+    const BsdfEval e = vertex_eval(&twin_.data, &v, light.wi);
     return nee_weight(&twin_.data, launch_, &v, &walk, &light, e);
 #else
     return real(0);

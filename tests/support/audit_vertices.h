@@ -59,7 +59,7 @@ inline void expect_flags(const EndVertex& a, const EndVertex& b) {
 
 /// The light vertex as if its walk had come to where the eye's vertex is.
 inline EndVertex moved(const TwinScene& twin, EndVertex light, const EndVertex& eye) {
-  const real3 wo = to_world(light.v.frame, light.v.context.wo);
+  const real3 wo = light.v.wo;
   light.v = vertex_at(&twin.data, eye.v.surface, wo, 1);
   return light;
 }

@@ -48,11 +48,10 @@ TEST(AuditAdjoint, BothEndsSeeOneBsdf) {
         continue;
       const Vertex eye = vertex_at(&twin.data, surface, wo, 0),
                    light = vertex_at(&twin.data, surface, wi, 1);
-      real cos_eye, cos_light;
-      const BsdfEval e = vertex_eval(&twin.data, &eye, wi, &cos_eye);
-      const BsdfEval l = vertex_eval(&twin.data, &light, wo, &cos_light);
-      const double from_eye = double(e.f.x * cos_eye) / cosine(surface.ng, wi);
-      const double from_light = double(l.f.x * cos_light) / cosine(surface.ng, wo);
+      const BsdfEval e = vertex_eval(&twin.data, &eye, wi);
+      const BsdfEval l = vertex_eval(&twin.data, &light, wo);
+      const double from_eye = double(e.f.x) / cosine(surface.ng, wi);
+      const double from_light = double(l.f.x) / cosine(surface.ng, wo);
       ASSERT_NEAR(from_light, from_eye, tolerance * from_eye + tail) << "material " << material;
       // The density of the way back is that of a walk which comes from there.
       ASSERT_NEAR(double(vertex_pdf_reverse(&twin.data, &eye, wi)), double(l.pdf_w),
@@ -75,7 +74,7 @@ TEST(AuditAdjoint, BothEndsSeeOneBsdf) {
 /// A delta lobe of the vertex, drawn with `lobe`.
 BsdfSample drawn(const TwinScene& twin, const Surface& surface, real3 wo, real lobe) {
   const Vertex v = vertex_at(&twin.data, surface, wo, 0);
-  return vertex_sample(&twin.data, &v, lobe, real(0.5), real(0.5));
+  return vertex_sample(&twin.data, &v, lobe, real(0.5), real(0.5), real(0.5));
 }
 
 /// Solid angle that a small cone of directions around wo is mapped to, over its own.

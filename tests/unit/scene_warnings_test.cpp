@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "scene/coarse_normals.h"
 #include "scene/coplanar.h"
 #include "scene/distance.h"
 #include "scene/mesh_tools.h"
@@ -157,20 +156,6 @@ TEST(SceneWarnings, FarModelsKeepTheirDigits) {
     EXPECT_LT(glm::length(scene.camera.origin), 2) << file;
     EXPECT_TRUE(scene.warnings.empty()) << file << scene.warnings[0];
   }
-}
-
-TEST(SceneWarnings, CoarseFacetsUnderRoundNormalsLoseLight) {
-  const auto warning = [](double degrees) {
-    Mesh mesh = square(1, 0, false);
-    const double angle = degrees * 3.14159265358979323846 / 180;
-    mesh.normals.assign(4, glm::vec3(std::sin(angle), std::cos(angle), 0));
-    return coarse_normals_note(with(shape_of(mesh)));
-  };
-  EXPECT_EQ(warning(0), "");
-  EXPECT_EQ(warning(11), "");
-  EXPECT_NE(warning(60).find("60 degrees off its 2 facets"), std::string::npos) << warning(60);
-  EXPECT_NE(warning(60).find("25.0 %"), std::string::npos) << warning(60);
-  EXPECT_NE(warning(120).find("25.0 %"), std::string::npos) << "turned to where it is seen from";
 }
 
 TEST(SceneWarnings, NeedlesAreCounted) {
