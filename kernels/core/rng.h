@@ -16,7 +16,8 @@
 #define DIM_LIGHT_WALK 0x09e30000u
 #define DIM_EMIT_POINT DIM_LIGHT_WALK            /* x w pick, y z point */
 #define DIM_EMIT_DIRECTION (DIM_LIGHT_WALK + 1u) /* x y direction, z side */
-/* As DIM_BSDF; and x y, by which the filter picks a splat's pixel. */
+/* As DIM_BSDF (w, if the walk survives: images of directions, transport/facet.h); and x y, by which
+ * the filter picks a splat's pixel. */
 #define DIM_LIGHT_WALK_BSDF(bounce) (DIM_LIGHT_WALK + 2u + 2u * (bounce))
 #define DIM_LIGHT_WALK_SPLAT(bounce) (DIM_LIGHT_WALK + 3u + 2u * (bounce))
 

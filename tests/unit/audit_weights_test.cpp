@@ -53,7 +53,7 @@ class Audit {
         worst_replay_, worst_sum_);
     EXPECT_LT(worst_found_, tolerance);
     EXPECT_LT(worst_replay_, tolerance);
-    EXPECT_LT(worst_sum_, tolerance);
+    EXPECT_LT(worst_sum_, std::min(tolerance, 1e-5));  // numerics 6
     EXPECT_LT(grazing_, found_ / 3);
     if (!merges) return;
     std::printf("  merges have %.2g of the weights\n", merged_ / replayed_);
