@@ -105,12 +105,14 @@ void aimed_rays_hit(const Lab& lab, Findings& findings, const RayConfig& config)
 void closed_meshes_are_tight(const Lab& lab, Findings& findings) {
   for (const Closed& closed : {sphere(), knot()})
     for (double distance : {0.0, 10.0, 1e3, 1e5}) shoot_edges(lab, findings, closed, distance, {});
-  const Scene box = light_tight_box();
+  const Scene flat = light_tight_box(), smooth = light_tight_box(true);
   for (const Integrator& method : integrators()) {
-    Renderer renderer(lab, box, {method.name, 16, 16});
     std::uint64_t lit = 0;
-    for (const auto& pixel : renderer.render({lab.count(16), 1, 8, MIS_BALANCE}).pixels)
-      lit += pixel[0].mean != 0;
+    for (const Scene& box : {flat, smooth})
+      for (const auto& pixel : Renderer(lab, box, {method.name, 16, 16})
+                                   .render({lab.count(16), 1, 8, MIS_BALANCE})
+                                   .pixels)
+        lit += pixel[0].mean != 0;
     findings.none("lit pixels in a closed box, " + method.name, lit);
   }
 }

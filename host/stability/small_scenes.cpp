@@ -39,9 +39,12 @@ Mesh lump(int triangles, const glm::dvec3& center) {
   return baked(generate(shape), center);
 }
 
-Scene light_tight_box() {
+Scene light_tight_box(bool smooth) {
   Scene scene = empty_scene(0.9);
-  add_shape(scene, lump(5000));
+  Mesh mesh = lump(5000);
+  if (smooth)
+    for (const glm::vec3& p : mesh.positions) mesh.normals.push_back(glm::normalize(p));
+  add_shape(scene, std::move(mesh));
   scene.lights.push_back(ConstantEnvironment{Rgb(1e6)});
   DirectionalLight sun;
   sun.irradiance = Rgb(1e6);

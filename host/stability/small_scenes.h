@@ -45,7 +45,8 @@ Mesh soup(Random& random, int triangles, double half, double size);
 Mesh scattered(Random& random, int triangles, double low, double high);
 
 /// A grey lump without holes, under a bright sky and a sun, seen from within: exactly black.
-Scene light_tight_box();
+/// `smooth`: with the normals of a ball, far from those of its facets.
+Scene light_tight_box(bool smooth = false);
 
 /// CF10 out of the shipped `slab`: a floor of reflectance 0.5 seen from below a pane from z = 1 to
 /// 1.5, index 1.5, which a point light of intensity 1 at z = 2 shines through.

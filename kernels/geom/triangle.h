@@ -63,11 +63,10 @@ INLINE void triangle_block(GLOBAL const float* v, GLOBAL const uint* prims, RayS
   vreal zero = v_splat(REAL(0.0));
   // Rounded differences may be 0 where the true value is not, but never have the wrong sign: this
   // mask is a superset of the hits.
-  uint inside =
-      v_mask_le(zero, v_min(e0, v_min(e1, e2))) | v_mask_le(v_max(e0, v_max(e1, e2)), zero);
+  vreal least = v_min(e0, v_min(e1, e2)), most = v_max(e0, v_max(e1, e2));
+  uint inside = v_mask_le(zero, least) | v_mask_le(most, zero);
   if (inside == 0u) return;
-  vreal smallest = v_min(v_max(e0, -e0), v_min(v_max(e1, -e1), v_max(e2, -e2)));
-  if (inside & v_mask_le(smallest, zero)) {
+  if (inside != (v_mask_lt(zero, least) | v_mask_lt(most, zero))) {  // a zero among them
     e0 = edge_exact(cx, by, cy, bx);
     e1 = edge_exact(ax, cy, ay, cx);
     e2 = edge_exact(bx, ay, by, ax);
@@ -76,7 +75,7 @@ INLINE void triangle_block(GLOBAL const float* v, GLOBAL const uint* prims, RayS
   vreal det = e0 + e1 + e2;
   vreal inv = v_splat(REAL(1.0)) / det;
   vreal b1 = e1 * inv, b2 = e2 * inv;
-  vreal t = v_fma(e0, az, v_fma(e1, bz, e2 * cz)) * inv * v_splat(s.sz);
+  vreal t = v_fma(e0, az, v_fma(e1, bz, e2 * cz)) * v_splat(s.sz) * inv;
   // A degenerate triangle has det = 0, so t is NaN or infinite and fails one of these.
   inside &= v_mask_lt(zero, t) & v_mask_le(t, v_splat(hit->t));
   if (inside == 0u) return;

@@ -14,8 +14,11 @@ typedef struct Merge {
 } Merge;
 
 /// The radiance that the photon brings to `eye` if they were one point, over `launch.merge_scale`.
-/// Photons count power through the geometric surface; K / |wi.ng| makes radiance of it. Not
-/// by their own normal: on round surfaces that ratio has no bound. 0 where nothing is scattered.
+/// Photons count power through the geometric surface; K / |wi.ng| makes radiance of it, with the
+/// mean |cosine| of both facets: the photon's own has no bound on round surfaces, and by the eye's
+/// alone shading normals would give photons from across an edge, which it sees graze, an infinite
+/// mean. As the radius shrinks both are one; the error is of second order in it, as with either.
+/// 0 where nothing is scattered.
 INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE const EndVertex* eye,
                         Photon photon, PRIVATE Merge* merge) {
   real3 ng = eye->v.surface.ng, wi = load3(photon.wi_dVCM);
@@ -24,10 +27,12 @@ INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE c
   // On a round sheet, light that grazes one side lies behind the tangent plane of a point beside
   // it: it stays on the side that it came to.
   real cos_g = dot3(ng, wi);
-  if (!(cos_g * dot3(photon_ng, wi) > REAL(0.0))) return 0;
+  real photon_cos_g = dot3(photon_ng, wi);
+  if (!(cos_g * photon_cos_g > REAL(0.0))) return 0;
   BsdfEval e = vertex_eval(scene, &eye->v, wi);
   if (is_black(e.f)) return 0;
-  real scale = (real)launch.merge_scale / r_abs(cos_g);
+  real mean_cos_g = REAL(0.5) * (r_abs(cos_g) + r_abs(photon_cos_g));
+  real scale = (real)launch.merge_scale / mean_cos_g;
   merge->value = eye->beta * e.f * load3(photon.beta_dVC) * scale;
   merge->weight = REAL(1.0);
 #if INTG_PARTIALS

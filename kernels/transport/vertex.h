@@ -84,7 +84,7 @@ INLINE VertexEnds vertex_ends(PRIVATE const Vertex* v, real3 wi) {
     ends.wo = v->context.wo;
     ends.share = facet_share(facet_camera_end(v->ng, ends.wo, REAL(1.0)), v->cos_wo);
   }
-  if (cos_g == REAL(0.0)) ends.light.images = 0;
+  if (!(ends.cos_wi > REAL(0.0))) ends.light.images = 0;  // NaN, too
   return ends;
 }
 
@@ -177,7 +177,6 @@ INLINE void vertex_mirror_sample(PRIVATE const SceneData* scene, PRIVATE const V
     s->weight = (s->weight * s->pdf_w + e.f) * (REAL(1.0) / (s->pdf_w + e.pdf_w));
     s->pdf_w += e.pdf_w;
   }
-  if (cos_g == REAL(0.0)) *s = bsdf_sample_none();
 }
 
 /// The sample of a walk from a light; `choice` in [0, 1) picks images. Its wi is local.
@@ -204,7 +203,7 @@ INLINE BsdfSample vertex_adjoint_sample(PRIVATE const SceneData* scene, PRIVATE 
   real own = c.wo.z / light.sum;  // share of the image chosen
   real scale = camera.sum / (v->cos_wo * r_abs(s.wi.z));
   if (s.delta || light.images < 2) {
-    s.weight = s.weight * (scale / own * c.wo.z);
+    s.weight = s.weight * (scale * light.sum);
     s.pdf_w *= own;
   } else {
     BsdfEval e = vertex_eval_image(scene, v, s.wi, other);
@@ -233,15 +232,15 @@ INLINE BsdfSample vertex_sample(PRIVATE const SceneData* scene, PRIVATE const Ve
     s = material_sample(scene, v->material, v->context, &v->surface, v->side, lobe, u1, u2);
     if (!is_black(s.weight)) vertex_mirror_sample(scene, v, &s);
   }
-  if (is_black(s.weight)) return s;
-  real3 wi = to_world(v->frame, s.wi);
+  real cos_g = dot3(v->ng, s.wi);
 #else
   s = material_sample(scene, v->material, v->context, &v->surface, v->side, lobe, u1, u2);
-  if (is_black(s.weight)) return s;
-  real3 wi = to_world(v->frame, s.wi);
-  if (!(dot3(v->surface.ng, wi) * v->side * s.wi.z > REAL(0.0))) return bsdf_sample_none();
+  real cos_g = s.wi.z;
 #endif
-  s.wi = normalize3(wi);  // once per bounce, so that directions do not drift (numerics 33)
+  if (is_black(s.weight)) return s;
+  s.wi = normalize3(to_world(v->frame, s.wi));  // once per bounce: no drift (numerics 33)
+  // What grazes the facet may have come to its other side by rounding: no light through walls.
+  if (!(dot3(v->surface.ng, s.wi) * v->side * cos_g > REAL(0.0))) return bsdf_sample_none();
   return s;
 }
 

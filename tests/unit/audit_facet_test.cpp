@@ -165,15 +165,21 @@ TEST(AuditFacet, DeltaLobesKnowTheirWayBack) {
       const Vertex light = vertex_at(&twin.data, s, there.wi, 1);
       ASSERT_FALSE(light.black) << name;
       Moments returns, same_lobe;
-      double reverse = 0;
+      double reverse = 0, adjoint = 0;
       for (int k = 0; k < tries; ++k) {
         const BsdfSample back = sample(twin, light, random);
         const bool home = !is_black(back.weight) && double(dot3(back.wi, wo)) > 1 - 1e-4;
         returns.add(home), same_lobe.add(sample(twin, eye, random).wi.x == there.wi.x);
-        if (home) reverse = double(back.reverse);
+        if (home) reverse = double(back.reverse), adjoint = double(back.weight.x);
       }
       ASSERT_GT(returns.mean, 0) << name;
       ASSERT_NEAR(double(there.reverse) * reverse, 1, is_float ? 1e-2 : 1e-6) << name;
+      // The adjoint K |wo.ng| / |wi.ng|, over the density of the way back (refraction included: its
+      // ratio of solid angles is in `reverse`).
+      const double cosines =
+          std::abs(double(dot3(s.ng, wo))) / std::abs(double(dot3(s.ng, there.wi)));
+      const double weight = double(there.weight.x) * cosines / double(there.reverse);
+      ASSERT_NEAR(adjoint, weight, (is_float ? 1e-2 : 1e-6) * weight) << name;
       // Beside the ratio of solid angles, the choice of lobe is as probable both ways.
       const double cos_o = double(eye.context.wo.z);
       const bool through = dot3(s.ng, wo) * dot3(s.ng, there.wi) < real(0);
