@@ -188,7 +188,8 @@ std::pair<Picture, ErrorEstimate> Renderer::render_to(double target, const Sampl
 
 Measured Renderer::measure(const Sampling& run) {
   Measured m;
-  if (!find_integrator(build_.method).uses(Bundle::splat)) {
+  const Integrator& method = find_integrator(build_.method);
+  if (!method.uses(Bundle::splat) && !method.uses(Bundle::grid)) {
     const Picture picture = render(run);
     m.pixels = picture.pixels;
     for (int c = 0; c < 3; ++c) m.image[std::size_t(c)] = picture.image(c);

@@ -85,7 +85,8 @@ class Renderer {
   Picture render(const Sampling& run);
   /// Until an error estimate says that the error is below `target`, or run.spp.
   std::pair<Picture, ErrorEstimate> render_to(double target, const Sampling& run);
-  /// Pixels of methods that splat share light paths, so there the spread of runs tells the error.
+  /// Pixels of methods that splat or merge share light paths: there the spread of runs tells the
+  /// error.
   Measured measure(const Sampling& run);
   /// spp for which the image's mean is known to `relative` (standard error) by a pilot of its own
   /// seed; `most` bounds the answer, and a render that then is too noisy fails as inconclusive.

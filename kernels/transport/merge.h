@@ -14,11 +14,11 @@ typedef struct Merge {
 } Merge;
 
 /// The radiance that the photon brings to `eye` if they were one point, over `launch.merge_scale`.
-/// Photons count power through the geometric surface; K / |wi.ng| makes radiance of it, with the
-/// mean |cosine| of both facets: the photon's own has no bound on round surfaces, and by the eye's
-/// alone shading normals would give photons from across an edge, which it sees graze, an infinite
-/// mean. As the radius shrinks both are one; the error is of second order in it, as with either.
-/// 0 where nothing is scattered.
+/// Photons count power through the geometric surface; K / |wi.ng| makes radiance of it. Not by the
+/// photon's own normal: on round surfaces that ratio has no bound. Neither has that by the eye's
+/// under shading normals, where photons come across an edge to a facet that their light grazes:
+/// there by the mean of both cosines, which is as right on either side of an edge as from the
+/// other. 0 where nothing is scattered.
 INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE const EndVertex* eye,
                         Photon photon, PRIVATE Merge* merge) {
   real3 ng = eye->v.surface.ng, wi = load3(photon.wi_dVCM);
@@ -31,8 +31,11 @@ INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE c
   if (!(cos_g * photon_cos_g > REAL(0.0))) return 0;
   BsdfEval e = vertex_eval(scene, &eye->v, wi);
   if (is_black(e.f)) return 0;
-  real mean_cos_g = REAL(0.5) * (r_abs(cos_g) + r_abs(photon_cos_g));
-  real scale = (real)launch.merge_scale / mean_cos_g;
+  real cos_flux = r_abs(cos_g);
+#if FEAT_SMOOTH_NORMALS
+  if (eye->v.surface.flags & SHAPE_SMOOTH) cos_flux = REAL(0.5) * (cos_flux + r_abs(photon_cos_g));
+#endif
+  real scale = (real)launch.merge_scale / cos_flux;
   merge->value = eye->beta * e.f * load3(photon.beta_dVC) * scale;
   merge->weight = REAL(1.0);
 #if INTG_PARTIALS

@@ -13,10 +13,13 @@ namespace pellucid::test {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-const Methods all{"naive", "nee", "path", "reference", "bdpt"};
-const Methods next_event{"nee", "path", "bdpt"};  // where chance would need too many samples
-const Methods next_event_only{"nee", "path"};     // whose every sample of a delta light is alike
-const Methods by_chance{"naive", "reference"};    // blind to point and directional lights
+const Methods all{"naive", "nee", "path", "reference", "bdpt", "sppm", "vcm"};
+const Methods unmerged{"naive", "nee", "path", "reference", "bdpt"};
+// Where chance would need too many samples.
+const Methods next_event{"nee", "path", "bdpt", "sppm", "vcm"};
+const Methods next_event_only{"nee", "path",
+                              "sppm"};          // whose every sample of a delta light is alike
+const Methods by_chance{"naive", "reference"};  // blind to point and directional lights
 const Methods material_only{"naive", "nee", "path", "bdpt"};  // no roulette where the albedo is 1
 
 Rgb grey(double v) {
@@ -39,6 +42,8 @@ Case furnace() {
   const Rgb rho(0.5, 0.75, 0.8);
   Case c{"", scene_named("furnace"), {{grey(1), {}, {}}}, all, {}};
   c.targets.push_back({1.0 - rho, 1, all});
+  c.methods = {"naive", "nee", "path", "reference", "bdpt", "sppm", "bpm", "vcm"};
+  c.radius = 0.05;
   for (unsigned depth : {3u, 11u})  // at 2, NEE between neighbouring facets is too noisy alone
     c.targets.push_back({1.0 - glm::pow(rho, Rgb(depth)), depth, {}});
   c.size = 32;
@@ -50,8 +55,11 @@ Case point_in_sphere() {
   return {"",
           scene_named("point-in-sphere"),
           {{grey(1), {}, {}}},
-          {"nee", "path", "bdpt", "light"},
-          by_chance};
+          {"nee", "path", "bdpt", "light", "sppm", "bpm", "vcm"},
+          by_chance,
+          1e-5,
+          48,
+          0.1};
 }
 
 /// CF8.
@@ -59,8 +67,11 @@ Case shell() {
   return {"",
           scene_named("shell"),
           {{grey(1), {}, {}}},
-          {"naive", "nee", "path", "reference", "bdpt", "light"},
-          {}};
+          {"naive", "nee", "path", "reference", "bdpt", "light", "sppm", "bpm", "vcm"},
+          {},
+          1e-5,
+          48,
+          0.1};
 }
 
 /// CF4 with the light turned by `degrees` about its x axis and scaled by `size` about its centre,

@@ -1,0 +1,95 @@
+// Closed forms averaged over what the camera sees, for methods that cannot see a point: a floor
+// under lamps of every kind, by walks from the lights and by merging (CF4, CF5, CF6, CF13).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "closed_form_cases.h"
+#include "equality.h"
+#include "render_harness.h"
+#include "stability/closed_forms.h"
+#include "support/statistics.h"
+
+namespace pellucid::test {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double half = 0.4;     // of the picture on the floor
+constexpr double radius = 0.04;  // of merging
+/// What a disc of that radius adds to a function that bends by 2 over a length of 1, about 4 times
+/// as sharply as any here: r^2/8 times its Laplacian.
+constexpr double disc = radius * radius / 2;
+
+/// A camera below the lamp that looks straight down at the floor y = 0.
+Scene seen_from_above(Scene scene) {
+  constexpr double height = 0.5;
+  scene.camera.origin = {0, height, 0};
+  scene.camera.forward = {0, -1, 0};
+  scene.camera.right = {1, 0, 0}, scene.camera.up = {0, 0, 1};
+  scene.camera.fov = 2 * std::atan(half / height) * 180 / pi;
+  return scene;
+}
+
+/// Mean over the picture of what the floor sends up at (x, z); symmetric in both.
+double mean_over_floor(const std::function<double(double, double)>& radiance) {
+  return integrate(radiance, 0, half, 0, half, 1e-9) / (half * half);
+}
+
+void expect_value(const Scene& scene, double value) {
+  constexpr int size = 8, runs = 32;
+  for (const char* method : {"light", "bdpt", "sppm", "bpm", "vcm"}) {
+    Build build{method, size, size};
+    build.light_paths = 1 << 12;
+    build.radius = radius, build.radius_alpha = 1;
+    Renderer renderer(scene, build);
+    Sampling run;
+    const auto spp =
+        renderer.spp_for(run, tier_tolerance() / 8, std::uint64_t(4096 * tier_effort()));
+    run.spp = spp / runs + 1;
+    Sample sample;
+    for (int k = 0; k < runs; ++k) {
+      run.seed = std::uint64_t(300 + k);
+      sample.push_back(renderer.render(run).image(0).mean);
+    }
+    EXPECT_EQ(judge(estimate(sample), value, 1e-5 + disc), "") << method;
+  }
+}
+
+TEST(Footprint, cf4_rectangle) {
+  const std::vector<glm::dvec3> corners{{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}};
+  expect_value(seen_from_above(scene_named("rectangle-light")),
+               mean_over_floor([&](double x, double z) {
+                 return polygon_form_factor({x, 0, z}, {0, 1, 0}, corners);  // rho Le = 1
+               }));
+}
+
+TEST(Footprint, cf5_sphere) {
+  expect_value(seen_from_above(scene_named("sphere-light")),
+               mean_over_floor([](double x, double z) {
+                 return 16 * 0.25 * 2 / std::pow(4 + x * x + z * z, 1.5);  // rho Le R^2 h / d^3
+               }));
+}
+
+/// CF6 off its axis: a disc of radius 1 at height 1 is the limit of polygons.
+TEST(Footprint, cf6_disc) {
+  constexpr int sides = 720;
+  std::vector<glm::dvec3> rim;
+  for (int i = 0; i < sides; ++i)
+    rim.emplace_back(std::cos(2 * pi * i / sides), 1, std::sin(2 * pi * i / sides));
+  EXPECT_NEAR(polygon_form_factor({0, 0, 0}, {0, 1, 0}, rim), 0.5, 2e-5);
+  Scene scene = seen_from_above(scene_named("rectangle-light"));
+  for (Shape& s : scene.shapes)
+    if (s.name == "light") s.geometry = Disk{{0, 1, 0}, {0, -1, 0}, 1.0};
+  expect_value(scene, mean_over_floor([&](double x, double z) {
+                 return polygon_form_factor({x, 0, z}, {0, 1, 0}, rim);
+               }));
+}
+
+TEST(Footprint, cf13_sun_and_sky) {
+  expect_value(seen_from_above(scene_named("plane-sun")), 1);
+  expect_value(seen_from_above(scene_named("plane-sky")), 1);
+}
+
+}  // namespace
+}  // namespace pellucid::test
