@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/text.h"
 #include "shared/limits.h"
@@ -43,22 +43,30 @@ void add_cut_paths(DepthCuts& into, const Launch& launch, bool walks_from_lights
   if (walks_from_lights) into[CUT_light].paths += launch.light_paths * passes;
 }
 
-std::string describe_cuts(const DepthCuts& cuts) {
+namespace {
+
+/// "camera paths 0.1342, light paths 0.2" of those that tell a share of at least `least`.
+std::string shares(const DepthCuts& cuts, double least) {
   std::vector<std::string> all;
   for (std::size_t i = 0; i < cuts.size(); ++i)
-    if (cuts[i].paths)
+    if (cuts[i].paths && cuts[i].share() >= least)
       all.push_back(fmt::format("{} paths {:.4g}", cut_names()[i], cuts[i].share()));
   return join(all);
 }
 
+}  // namespace
+
+std::string describe_cuts(const DepthCuts& cuts) {
+  return shares(cuts, 0.0);
+}
+
 std::string cuts_verdict(const DepthCuts& cuts) {
-  const bool any =
-      std::any_of(cuts.begin(), cuts.end(), [](const DepthCut& c) { return c.share() > 0; });
-  if (!any) return "";
+  const std::string told = shares(cuts, std::numeric_limits<double>::min());
+  if (told.empty()) return "";
   return fmt::format(
-      "--max-depth cut paths off that could still have carried light, as a share of what they "
-      "started with, in the mean: {}. It is a hint from above on lost brightness",
-      describe_cuts(cuts));
+      "--max-depth cut off throughput: of what they started with, {} in the mean. So much could "
+      "they still have carried: a hint, mostly from above, on lost brightness",
+      told);
 }
 
 }  // namespace pellucid

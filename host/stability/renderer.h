@@ -90,8 +90,8 @@ class Renderer {
   /// spp for which the image's mean is known to `relative` (standard error) by a pilot of its own
   /// seed; `most` bounds the answer, and a render that then is too noisy fails as inconclusive.
   std::uint64_t spp_for(const Sampling& run, double relative, std::uint64_t most);
-  /// What depth caps cut off in all pictures so far.
-  const DepthCuts& cuts() const { return cuts_; }
+  /// What depth caps cut off since the last call.
+  DepthCuts take_cuts() { return std::exchange(cuts_, {}); }
   const PackedScene& packed() const { return packed_; }
   const Plan& plan() const { return plan_; }
 
