@@ -6,6 +6,7 @@
 #include "apps/command.h"
 #include "apps/common.h"
 #include "apps/info_parts.h"
+#include "apps/render_report.h"
 #include "base/text.h"
 #include "render/checkpoint.h"
 
@@ -36,7 +37,8 @@ ExitCode checkpoint_info(const std::string& path, const CommonOptions& common) {
                                    {"error_estimate", {{"relmse", summary.relmse}}},
                                    {"aovs", aovs},
                                    {"identity", c.facts.identity},
-                                   {"counters", counters}};
+                                   {"counters", counters},
+                                   {"depth_cut", cuts_json(c.facts.cuts)}};
   std::string text = fmt::format(
       "{}: checkpoint\n  film      {}x{}, pixels {}..{} x {}..{}\n  passes    {} ({} in all); "
       "missing up to there: {}\n  rendered  in {}, mean {:.6g}\n  counters  {}\n",
@@ -44,6 +46,8 @@ ExitCode checkpoint_info(const std::string& path, const CommonOptions& common) {
       film.passes.text(), film.passes.count(), gaps.text(), format_seconds(c.facts.seconds),
       summary.mean,
       error_count(c.facts.counters) ? describe_counters(c.facts.counters) : "no errors");
+  if (const std::string cut = describe_cuts(c.facts.cuts); !cut.empty())
+    text += fmt::format("  cut off   {}\n", cut);
   if (!aovs.empty()) text += fmt::format("  channels  {}\n", join(aovs));
   for (const auto& [name, value] : c.facts.identity)
     text += fmt::format("  {:<12} {}\n", name, value);

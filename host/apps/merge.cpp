@@ -61,7 +61,8 @@ Image picture_of(const Checkpoint& c, const MergeFlags& flags) {
   Image image = film_image(c.film, asked("variance"), asked("samples"));
   add_channels(image, c.facts.aovs);
   image.metadata = c.facts.evidence;
-  add_progress(c.film, summarise(c.film), c.facts.counters, c.facts.seconds, image.metadata);
+  add_progress(c.film, summarise(c.film), c.facts.counters, c.facts.cuts, c.facts.seconds,
+               image.metadata);
   if (flags.deterministic) make_deterministic(image.metadata);
   return image;
 }

@@ -139,8 +139,8 @@ void RenderJob::write_pictures_of(const Film& film) {
   Image image = film_image(film, asked("variance"), asked("samples"));
   add_channels(image, aovs_);
   image.metadata = lasting_evidence(facts_);
-  add_progress(film, facts_.film, facts_.session->counters(), facts_.render_seconds,
-               image.metadata);
+  add_progress(film, facts_.film, facts_.session->counters(), facts_.session->cuts(),
+               facts_.render_seconds, image.metadata);
   if (facts_.session->error()) add_error(film, *facts_.session->error(), image.metadata);
   if (flags_.deterministic) make_deterministic(image.metadata);
   write_pictures(names_, image, flags_.display.transform());
@@ -150,9 +150,9 @@ void RenderJob::write_checkpoint_of(const Film& film) {
   const PhaseScope phase(Phase::checkpoint);
   Evidence evidence = lasting_evidence(facts_);
   if (facts_.session->error()) add_error(film, *facts_.session->error(), evidence);
-  write_checkpoint(
-      flags_.checkpoint, film,
-      {identity(facts_), evidence, facts_.session->counters(), facts_.render_seconds, aovs_});
+  write_checkpoint(flags_.checkpoint, film,
+                   {identity(facts_), evidence, facts_.session->counters(), facts_.session->cuts(),
+                    facts_.render_seconds, aovs_});
 }
 
 /// Writes the checkpoint and, if wanted, the pictures; if one fails, the others are still written.
@@ -263,6 +263,8 @@ ExitCode RenderJob::finish(bool complete) {
                : "");
   const std::string counters = describe_counters(f.session->counters());
   if (!counters.empty()) log_warn("device counters: {}", counters);
+  const std::string cut = cuts_verdict(f.session->cuts());
+  if (!cut.empty()) log_info("{}", cut);  // asked for: no warning
   if (!complete) log_warn("stopped early; what was rendered is written");
   // No warning: nothing went wrong, and --strict takes none. It stays in the picture's evidence.
   for (const std::string& unseen :
@@ -332,7 +334,7 @@ ExitCode RenderJob::run() {
     return Session(target, packed, *facts_.integrator, facts_.options, std::move(start));
   }();
   facts_.session = &session;
-  if (earlier_) session.add_counters(earlier_->facts.counters);
+  if (earlier_) session.add_counters(earlier_->facts.counters, earlier_->facts.cuts);
   stop_.reinstall();
   image_library.get();
 

@@ -119,7 +119,7 @@ void RenderFlags::declare(CLI::App& app) {
       ->type_name("X0,X1,Y0,Y1");
   app.add_option("--max-depth", max_depth,
                  "longest path in segments, an emitter seen directly has 1 (default: the scene's, "
-                 "else unlimited)")
+                 "else unlimited); what that cuts off is told at the end")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{0xfffffffe}));
   declare_files(app);
   declare_progress(app);

@@ -141,10 +141,12 @@ Evidence lasting_evidence(const RenderFacts& f) {
 }
 
 void add_progress(const Film& film, const FilmSummary& summary,
-                  const std::vector<Counter>& counters, double seconds, Evidence& meta) {
+                  const std::vector<Counter>& counters, const DepthCuts& cuts, double seconds,
+                  Evidence& meta) {
   meta["samplesPerPixel"] = int(std::min<std::uint64_t>(film.passes.count(), INT_MAX));
   meta["pellucid:passes"] = film.passes.text();
   meta["pellucid:counters"] = counters_text(counters);
+  if (const std::string cut = describe_cuts(cuts); !cut.empty()) meta["pellucid:depthCut"] = cut;
   if (std::isfinite(summary.relmse)) meta["pellucid:relmseEstimate"] = float(summary.relmse);
   meta["renderTimeSeconds"] = float(seconds);
 }
@@ -224,6 +226,13 @@ static nlohmann::json phase_seconds() {
   return seconds;
 }
 
+nlohmann::json cuts_json(const DepthCuts& cuts) {
+  nlohmann::json shares = nlohmann::json::object();
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    if (cuts[i].paths) shares[cut_names()[i]] = cuts[i].share();
+  return shares;
+}
+
 nlohmann::json render_stats(const RenderFacts& f) {
   using nlohmann::json;
   json counters = json::object();
@@ -263,6 +272,7 @@ nlohmann::json render_stats(const RenderFacts& f) {
           {"outside_passes", seconds["render"].get<double>() - in_passes},
           {"features", feature_flags(f.session->plan().specialisation().features, all_features())},
           {"counters", counters},
+          {"depth_cut", cuts_json(f.session->cuts())},
           {"unreachable", unreachable_paths(*f.integrator, f.optics())},
           {"memory_bytes", f.session->plan().memory()},
           {"film_bytes", f.session->memory().film_bytes},

@@ -36,10 +36,11 @@ using Evidence = std::map<std::string, MetaValue>;
 /// EXR attributes that do not change while a render goes on: worldToCamera, ... and pellucid:*.
 Evidence lasting_evidence(const RenderFacts& facts);
 
-/// Those that tell what a film is made of: samplesPerPixel, pellucid:passes, counters, error,
-/// renderTimeSeconds.
+/// Those that tell what a film is made of: samplesPerPixel, pellucid:passes, counters, depthCut,
+/// error, renderTimeSeconds.
 void add_progress(const Film& film, const FilmSummary& summary,
-                  const std::vector<Counter>& counters, double seconds, Evidence& evidence);
+                  const std::vector<Counter>& counters, const DepthCuts& cuts, double seconds,
+                  Evidence& evidence);
 
 /// pellucid:relmseUpper and pellucid:relmseConfidence, if they are known of just this film.
 void add_error(const Film& film, const ErrorEstimate& error, Evidence& evidence);
@@ -55,6 +56,9 @@ std::string error_verdict(const ErrorEstimate& error);
 
 /// Takes out time, host and device, for files that must be the same wherever they are made.
 void make_deterministic(Evidence& evidence);
+
+/// Shares by kind of path that a cap cut off; empty without a cap.
+nlohmann::json cuts_json(const DepthCuts& cuts);
 
 /// What must agree for checkpoints to be of the same picture.
 std::map<std::string, std::string> identity(const RenderFacts& facts);

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 
 #include "base/error.h"
 #include "base/hash.h"
@@ -142,6 +143,22 @@ class Facts {
   const std::string& file_;
   const std::map<std::string, MetaValue>& metadata_;
 };
+
+std::string cut_key(std::size_t kind) {
+  return fmt::format("cut.{}", cut_names()[kind]);
+}
+
+/// As write_checkpoint() puts it: sum, steps of 2^-32, paths; left out where no cap was.
+DepthCuts read_cuts(const WordImage& words, const Facts& facts) {
+  DepthCuts cuts{};
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    if (!words.metadata.count(key(cut_key(i)))) continue;
+    std::istringstream text(facts.text(cut_key(i)));
+    DepthCut& cut = cuts[i];
+    if (!(text >> cut.whole >> cut.part >> cut.paths)) facts.fail("'" + cut_key(i) + "'");
+  }
+  return cuts;
+}
 
 /// Of everything but the hash itself and what describes the picture.
 std::string content_hash(const WordImage& words) {
@@ -295,6 +312,10 @@ void write_checkpoint(const std::string& path, const Film& film, const Checkpoin
   put("aovs", aovs.empty() ? no_aovs : fmt::format("{}", fmt::join(aovs, " ")));
   for (const auto& [name, value] : facts.identity) put("identity." + name, value);
   for (const Counter& c : facts.counters) put("counter." + c.name, std::to_string(c.count));
+  for (std::size_t i = 0; i < facts.cuts.size(); ++i) {
+    const DepthCut& cut = facts.cuts[i];
+    if (cut.paths) put(cut_key(i), fmt::format("{} {} {}", cut.whole, cut.part, cut.paths));
+  }
   put("hash", content_hash(words));
   write_words(path, words);
 }
@@ -322,6 +343,7 @@ Checkpoint read_checkpoint(const std::string& path) {
   for (Counter& c : about.counters)
     if (words.metadata.count(key("counter." + c.name)))
       c.count = std::uint64_t(facts.number("counter." + c.name));
+  about.cuts = read_cuts(words, facts);
   const std::string identity = key("identity.");
   for (const auto& [name, value] : words.metadata) {
     if (name.rfind(identity, 0) == 0)
@@ -347,6 +369,7 @@ void merge_checkpoint(Checkpoint& into, const std::string& into_name, const Chec
   into.facts.seconds += other.facts.seconds;
   for (std::size_t i = 0; i < into.facts.counters.size(); ++i)
     into.facts.counters[i].count += other.facts.counters[i].count;
+  add_cuts(into.facts.cuts, other.facts.cuts);
   add_missing(into.facts.aovs, other.facts.aovs);
   for (const char* place : {"pellucid:device", "pellucid:driver", "pellucid:version"})
     join_evidence(into.facts.evidence, other.facts.evidence, place);

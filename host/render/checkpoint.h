@@ -8,6 +8,7 @@
 
 #include "image/image.h"
 #include "render/aov.h"
+#include "render/depth_cut.h"
 #include "render/diagnostics.h"
 #include "render/film.h"
 #include "render/integrator.h"
@@ -20,6 +21,7 @@ struct CheckpointFacts {
   std::map<std::string, std::string> identity;
   std::map<std::string, MetaValue> evidence;  ///< metadata of the picture so far
   std::vector<Counter> counters = make_counters();
+  DepthCuts cuts{};              ///< what --max-depth cut off
   double seconds = 0;            ///< render time of all passes
   std::vector<AovChannel> aovs;  ///< channels beside the film's, which no pass changes
 };

@@ -13,6 +13,10 @@ std::vector<Counter> make_counters() {
 #undef PELLUCID_COUNTER
 }
 
+void add_counts(const std::vector<unsigned>& counts, std::vector<Counter>& counters) {
+  for (std::size_t i = 0; i < counters.size(); ++i) counters[i].count += counts.at(i);
+}
+
 std::uint64_t error_count(const std::vector<Counter>& counters) {
   std::uint64_t sum = 0;
   for (const Counter& c : counters) sum += c.error ? c.count : 0;

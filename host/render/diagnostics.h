@@ -16,6 +16,9 @@ struct Counter {
 /// All counters at 0, in the order of DIAG_COUNTERS.
 std::vector<Counter> make_counters();
 
+/// Adds what the device counted.
+void add_counts(const std::vector<unsigned>& counts, std::vector<Counter>& counters);
+
 /// Sum of those that are errors.
 std::uint64_t error_count(const std::vector<Counter>& counters);
 

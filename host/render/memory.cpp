@@ -120,7 +120,7 @@ std::map<std::string, std::size_t> buffer_sizes(const PackedScene& scene,
     bytes["film"] = pixels * sizeof(FilmPixel);
   }
   if (integrator.uses(Bundle::aov)) bytes["aovs"] = pixels * sizeof(AovPixel);
-  bytes["diag"] = DIAG_COUNT * sizeof(uint);
+  bytes["diag"] = DIAG_WORDS * sizeof(uint);
   if (integrator.uses(Bundle::splat)) bytes["splats"] = pixels * SPLAT_WORDS * sizeof(uint);
   const std::size_t slice = slice_rows(integrator, options, rows);
   if (integrator.uses(Bundle::light_vertices))

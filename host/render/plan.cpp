@@ -68,12 +68,17 @@ std::size_t group_for_pass(const Pass& pass, const Kernel& kernel, std::size_t a
   return group;
 }
 
+/// All of them and what stands behind them, which is 0 then.
+static std::vector<uint> take_words(Device& device, const Buffer& diag) {
+  std::vector<uint> words(diag.bytes() / sizeof(uint));
+  device.read(diag, words.data(), diag.bytes());
+  const std::vector<uint> none(words.size());
+  device.write(diag, none.data(), diag.bytes());
+  return words;
+}
+
 void collect_counters(Device& device, const Buffer& diag, std::vector<Counter>& counters) {
-  std::vector<uint> counts(DIAG_COUNT);
-  device.read(diag, counts.data(), counts.size() * sizeof(uint));
-  for (std::size_t i = 0; i < counts.size(); ++i) counters.at(i).count += counts[i];
-  std::fill(counts.begin(), counts.end(), 0u);
-  device.write(diag, counts.data(), counts.size() * sizeof(uint));
+  add_counts(take_words(device, diag), counters);
 }
 
 std::vector<std::string> parameter_names(const Pass& pass) {
@@ -254,8 +259,10 @@ std::vector<uint> Plan::read_words(const std::string& buffer) {
   return words;
 }
 
-void Plan::collect(std::vector<Counter>& counters) {
-  collect_counters(device_, buffers_.at("diag"), counters);
+void Plan::collect(std::vector<Counter>& counters, DepthCuts& cuts) {
+  const std::vector<uint> words = take_words(device_, buffers_.at("diag"));
+  add_counts(words, counters);
+  add_cut_words(cuts, words);
 }
 
 std::map<std::string, std::size_t> Plan::memory() const {

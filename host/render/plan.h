@@ -11,6 +11,7 @@
 #include "cl/device.h"
 #include "cl/sources.h"
 #include "pack/pack.h"
+#include "render/depth_cut.h"
 #include "render/diagnostics.h"
 #include "render/film.h"
 #include "render/integrator.h"
@@ -76,8 +77,9 @@ class Plan {
   void write_layers(const Layers& layers, std::size_t first, std::size_t pixels);
   /// What a buffer of whole words holds.
   std::vector<uint> read_words(const std::string& buffer);
-  /// Adds the device's counters to `counters` and clears them.
-  void collect(std::vector<Counter>& counters);
+  /// Adds the device's counters to `counters`, and to `cuts` what --max-depth cut off, and clears
+  /// them.
+  void collect(std::vector<Counter>& counters, DepthCuts& cuts);
 
   std::map<std::string, std::size_t> memory() const;
   const std::vector<PassState>& passes() const { return passes_; }

@@ -40,7 +40,8 @@ Session::Session(const Device& device, const PackedScene& scene, const Integrato
       memory_(plan_memory(device.info(), scene, integrator, options)),
       plan_(timed_plan(device, scene, integrator, options, memory_, kernel_seconds_)),
       film_(options.width, options.height, options.window(),
-            scene.brightness_exponent - FILM_FRACTION_BITS, block_size_of(plan_)) {
+            scene.brightness_exponent - FILM_FRACTION_BITS, block_size_of(plan_)),
+      light_walks_(integrator.walks_from_lights()) {
   PELLUCID_CHECK(options_.passes || options_.seconds || options_.error, "a render needs a budget");
   launch_ = make_launch(scene, options_.width, options_.height, options_.window(),
                         options_.light_paths.value_or(0));
@@ -124,6 +125,7 @@ void Session::render_batch(const Batch& batch) {
       plan_.enqueue(launch_);
     }
     plan_.finish();
+    plan_.collect(counters_, cuts_);
     swap = Timer();
     if (!one_tile) to_host(tile);
     swapping += swap.seconds();
@@ -132,6 +134,7 @@ void Session::render_batch(const Batch& batch) {
   device_has_film_ = one_tile;
   host_has_film_ = !one_tile;
   film_.passes.add({batch.first, batch.first + batch.count});
+  add_cut_paths(cuts_, launch_, light_walks_, batch.count);
   const std::uint64_t last = (batch.first + batch.count - 1) / film_.block_size;
   film_.current.reset();
   if (!film_.passes.contains(film_.block_range(last))) film_.current = last;
@@ -197,19 +200,16 @@ bool Session::run(const RenderHooks& hooks) {
     if (error_ && film_.passes.count() == error_->border()) error_->observe(film());
     if (hooks.progress) hooks.progress(progress_text(timer.seconds(), done));
     render_seconds_ = seconds_before + timer.seconds();
-    if (hooks.wants_film && hooks.wants_film()) {
-      plan_.collect(counters_);
-      hooks.film(film());
-    }
+    if (hooks.wants_film && hooks.wants_film()) hooks.film(film());
   }
   if (error_) error_->finish(film());
   render_seconds_ = seconds_before + timer.seconds();
-  plan_.collect(counters_);
   return complete;
 }
 
-void Session::add_counters(const std::vector<Counter>& earlier) {
+void Session::add_counters(const std::vector<Counter>& earlier, const DepthCuts& cuts) {
   for (std::size_t i = 0; i < counters_.size(); ++i) counters_[i].count += earlier.at(i).count;
+  add_cuts(cuts_, cuts);
 }
 
 }  // namespace pellucid

@@ -39,8 +39,10 @@ class Session {
   double render_seconds() const { return render_seconds_; }  ///< of run()
   double kernel_seconds() const { return kernel_seconds_; }
   const std::vector<Counter>& counters() const { return counters_; }
-  /// Puts counts of earlier passes in front of ours.
-  void add_counters(const std::vector<Counter>& earlier);
+  /// What --max-depth cut off.
+  const DepthCuts& cuts() const { return cuts_; }
+  /// Puts what earlier passes counted in front of ours.
+  void add_counters(const std::vector<Counter>& earlier, const DepthCuts& cuts);
   const Plan& plan() const { return plan_; }
   Plan& plan() { return plan_; }
   const MemoryPlan& memory() const { return memory_; }
@@ -65,6 +67,7 @@ class Session {
   Plan plan_;
   Launch launch_{};
   Film film_;
+  bool light_walks_;
   bool device_has_film_, host_has_film_ = true;  ///< which of them know all passes done
   double swap_seconds_ = 0;                      ///< of moving all tiles once
   std::optional<ErrorEstimate> error_;
@@ -72,6 +75,7 @@ class Session {
   double next_look_ = 0;  ///< seconds after the start of run()
   double render_seconds_ = 0;
   std::vector<Counter> counters_ = make_counters();
+  DepthCuts cuts_{};
 };
 
 }  // namespace pellucid

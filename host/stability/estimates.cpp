@@ -41,6 +41,25 @@ void compare_means(const Lab& lab, Findings& findings, const std::string& what,
   require_resolution(lab, findings, what, widest, resolution);
 }
 
+std::array<Estimate, CUT_COUNT> measured_cuts(Renderer& renderer, Sampling run) {
+  constexpr std::size_t parts = 32;
+  std::array<std::vector<double>, CUT_COUNT> shares;
+  run.spp = (run.spp + parts - 1) / parts;
+  renderer.take_cuts();
+  for (std::size_t k = 0; k < parts; ++k, ++run.seed) {
+    renderer.render(run);
+    const DepthCuts cuts = renderer.take_cuts();
+    for (std::size_t i = 0; i < cuts.size(); ++i) shares[i].push_back(cuts[i].share());
+  }
+  std::array<Estimate, CUT_COUNT> found{};
+  for (std::size_t i = 0; i < CUT_COUNT; ++i) {
+    for (double share : shares[i]) found[i].mean += share / double(parts);
+    for (double share : shares[i])
+      found[i].variance += std::pow(share - found[i].mean, 2) / double(parts * (parts - 1));
+  }
+  return found;
+}
+
 std::array<Estimate, 3> measured_means(const Lab& lab, const Scene& scene, const Build& build,
                                        Sampling run, double resolution) {
   Renderer renderer(lab, scene, build);

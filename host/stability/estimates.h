@@ -22,6 +22,9 @@ void compare_means(const Lab& lab, Findings& findings, const std::string& what,
                    const std::array<Estimate, 3>& a, const std::array<Estimate, 3>& b,
                    double resolution = usual_resolution);
 
+/// Shares of throughput that run.max_depth cuts off, by CUT_*: their noise is the spread of runs.
+std::array<Estimate, CUT_COUNT> measured_cuts(Renderer& renderer, Sampling run);
+
 /// The picture's means, known so well.
 std::array<Estimate, 3> measured_means(const Lab& lab, const Scene& scene, const Build& build,
                                        Sampling run, double resolution = usual_resolution);

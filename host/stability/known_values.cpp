@@ -197,6 +197,32 @@ void panes_let_through_what_they_must(const Lab& lab, Findings& findings) {
           measured_mean(lab, lab.open_scene("inside-glass"), {"path", 16, 16}, {}), 2.25, 1e-5);
 }
 
+/// What the program says that a cap has cut off is what it has: albedo^depth, in the mean of all
+/// channels, of camera paths. Light paths start as the walls glow, and end a segment earlier.
+static void caps_tell_what_they_cut(const Lab& lab, Findings& findings, const Scene& scene,
+                                    const Rgb& rho) {
+  for (const std::string method : {"naive", "path", "bdpt", "sppm", "vcm"}) {
+    Renderer renderer(lab, scene, {method, 16, 16});
+    for (uint depth : {2u, 11u}) {
+      const std::uint64_t spp = std::uint64_t(1024 * lab.effort);
+      const auto found = measured_cuts(renderer, {spp, 1, depth, MIS_BALANCE});
+      const std::string what = fmt::format("cut off by a cap of {}, {}", depth, method);
+      double camera = 0, light = 0, glow = 0;
+      for (int c = 0; c < 3; ++c) {
+        camera += std::pow(rho[c], depth) / 3;
+        light += std::pow(rho[c], depth - 1) * (1 - rho[c]);
+        glow += 1 - rho[c];
+      }
+      if (method == "sppm")  // gathers at the first wall: no cap ends its eye paths
+        findings.at_most(what + ", camera", found[CUT_camera].mean, 0);
+      else
+        compare(lab, findings, what + ", camera", found[CUT_camera], camera, 1e-5);
+      if (find_integrator(method).walks_from_lights())
+        compare(lab, findings, what + ", light", found[CUT_light], light / glow, 1e-5);
+    }
+  }
+}
+
 void long_paths_lose_nothing(const Lab& lab, Findings& findings) {
   const Rgb rho(0.5, 0.9, 0.99);
   Scene scene = lab.open_scene("furnace");
@@ -230,6 +256,7 @@ void long_paths_lose_nothing(const Lab& lab, Findings& findings) {
             means[std::size_t(c)], depth ? 1 - std::pow(rho[c], depth) : 1, merges ? slack : 1e-5,
             resolution);
     }
+  caps_tell_what_they_cut(lab, findings, scene, rho);
 }
 
 }  // namespace pellucid::stability

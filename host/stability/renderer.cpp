@@ -129,7 +129,7 @@ Renderer::Renderer(const Lab& lab, const Scene& scene, const Build& build)
 
 void Renderer::check_counters() {
   std::vector<Counter> counters = make_counters();
-  plan_.collect(counters);
+  plan_.collect(counters, cuts_);
   require_no_errors(build_.method, counters);
 }
 
@@ -164,6 +164,7 @@ void Renderer::advance(Film& film, Launch launch, std::uint64_t passes) {
   check_counters();
   plan_.read_film(film.pixels.data(), film.pixels.size());
   film.passes.add({done, passes});
+  add_cut_paths(cuts_, launch, find_integrator(build_.method).walks_from_lights(), passes - done);
 }
 
 Picture Renderer::render(const Sampling& run) {

@@ -91,6 +91,8 @@ class Renderer {
   /// spp for which the image's mean is known to `relative` (standard error) by a pilot of its own
   /// seed; `most` bounds the answer, and a render that then is too noisy fails as inconclusive.
   std::uint64_t spp_for(const Sampling& run, double relative, std::uint64_t most);
+  /// What depth caps cut off since the last call.
+  DepthCuts take_cuts() { return std::exchange(cuts_, {}); }
   const PackedScene& packed() const { return packed_; }
   const Plan& plan() const { return plan_; }
 
@@ -104,6 +106,7 @@ class Renderer {
   Build build_;
   PackedScene packed_;
   Plan plan_;
+  DepthCuts cuts_{};
 };
 
 /// The same through a Session, as the program renders.

@@ -96,6 +96,9 @@ INLINE real3 normalize3(real3 a) {
 INLINE real3 abs3(real3 a) {
   return REAL3(r_abs(a.x), r_abs(a.y), r_abs(a.z));
 }
+INLINE real mean3(real3 a) {
+  return (a.x + a.y + a.z) * (REAL(1.0) / REAL(3.0));
+}
 INLINE real max3(real3 a) {
   return r_max(a.x, r_max(a.y, a.z));
 }

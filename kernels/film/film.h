@@ -82,22 +82,26 @@ INLINE uint film_pixel(Launch launch, int x, int y) {
 }
 
 /// Adds `steps` to a 64-bit counter kept as two words, low first. Integer sums are the same in any
-/// order, so splats do not depend on scheduling. Without 64-bit atomics the carry goes by hand. A
-/// sum that leaves 64 bits is counted by `saturated`.
-INLINE void splat_word(__global uint* word, __global uint* diag, ulong steps, uint saturated) {
+/// order, so splats do not depend on scheduling. Without 64-bit atomics the carry goes by hand. 1:
+/// the sum left 64 bits.
+INLINE int sum_steps(__global uint* word, ulong steps) {
 #if DEV_INT64_ATOMICS
   ulong before = atom_add((__global ulong*)word, steps);
-  if (before + steps < before) diag_add(diag, saturated);
+  return before + steps < before;
 #else
   uint low = (uint)steps;
   uint old = atomic_add(&word[0], low);
   uint carry = (old + low) < old ? 1u : 0u;
   uint high = (uint)(steps >> 32) + carry;
-  if (high) {
-    uint old_high = atomic_add(&word[1], high);
-    if (old_high + high < old_high) diag_add(diag, saturated);
-  }
+  if (!high) return 0;
+  uint old_high = atomic_add(&word[1], high);
+  return old_high + high < old_high;
 #endif
+}
+
+/// The same of a splat: a sum that leaves 64 bits is counted by `saturated`.
+INLINE void splat_word(__global uint* word, __global uint* diag, ulong steps, uint saturated) {
+  if (sum_steps(word, steps)) diag_add(diag, saturated);
 }
 
 /// Steps of one channel; too large a value is cut and counted by `saturated`.
@@ -108,6 +112,14 @@ INLINE ulong splat_steps(float value, float scale, __global uint* diag, uint sat
     steps = SPLAT_FIXED_MAX;
   }
   return convert_ulong_rte(steps);
+}
+
+/// Adds a path's throughput to what --max-depth cut off (CUT_*). The sum is emptied after every
+/// batch of passes, of far fewer paths than 2^32.
+INLINE void cut_add(__global uint* diag, uint kind, float share) {
+  if (share == 0.0f) return;
+  float kept = share < CUT_SHARE_MAX ? share : CUT_SHARE_MAX;  // NaN, too, shows as the largest
+  sum_steps(diag + DIAG_CUTS + 2u * kind, convert_ulong_rte(kept * CUT_STEPS));
 }
 
 /// Adds a contribution to pixel (x, y) of the whole picture, if it lies in the tile, from any
@@ -134,15 +146,16 @@ INLINE void film_splat(__global uint* splats, __global uint* diag, Launch launch
 }
 
 /// Books the rays of a light path on a pixel of the window, so that no pixel gets many at once and
-/// that bands, which trace it again, do not count it again.
-INLINE void film_count_rays(__global uint* splats, __global uint* diag, Launch launch, uint path,
-                            uint rays) {
+/// that bands, which trace it again, do not count it again. 0: another band does.
+INLINE int film_count_rays(__global uint* splats, __global uint* diag, Launch launch, uint path,
+                           uint rays) {
   uint home = path % (launch.window_width * launch.window_height);
   int x = (int)(launch.window_x + home % launch.window_width);
   int y = (int)(launch.window_y + home / launch.window_width);
-  if (!film_in_tile(launch, x, y)) return;
+  if (!film_in_tile(launch, x, y)) return 0;
   splat_word(splats + (size_t)film_pixel(launch, x, y) * SPLAT_WORDS + 6, diag, rays,
              DIAG_splat_saturated);
+  return 1;
 }
 
 /// A splat counter as radiance.

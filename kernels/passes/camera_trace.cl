@@ -33,13 +33,16 @@ __kernel void camera_trace(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
 #endif
   RECORDER(s.rng.path, 0u, 1, pixel >= launch.gather_first)
   uint rays;
+  real cut;
   real3 radiance = path_radiance(&scene_data, launch, s.rng, s.ray, camera_pdf_w(camera, s.ray.d),
 #if INTG_LAYERS
                                  sink,
 #endif
-                                 &store, &rays);
-  if (pixel >= launch.gather_first)
+                                 &store, &rays, &cut);
+  if (pixel >= launch.gather_first) {
     samples[pixel] = (float4)(radiance.x, radiance.y, radiance.z, (float)rays);
+    cut_add(diag, CUT_camera, cut);
+  }
 #if INTG_VERTICES
   eye_last[index] = store.last;
   eye_first[index] = store.count;

@@ -95,6 +95,9 @@ __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
   record_start(&scene_data, w.walk.ray, w.start.pdf, w.walk.beta);
   Vertex v;
   uint limit = depth_limit(launch);
+  int capped = launch.max_depth == limit;
+  // With a limit of 1 it may not even start.
+  real cut = capped && limit == 1u && !is_black(w.walk.beta) ? REAL(1.0) : REAL(0.0);
   while (w.depth + 1u < limit && light_walk_next(&scene_data, launch, &w, &v)) {
     walk_record(&scene_data, w.depth, &v, &w.walk);
     if (!bsdf_is_delta(v.material)) {
@@ -115,10 +118,12 @@ __kernel void light_trace(SCENE_PARAMS FILTER_PARAMS SPLAT_PARAMS
     if (!walk_scatter(&scene_data, launch, rng, DIM_LIGHT_WALK_BSDF(w.depth - 1u), &v, &w.walk))
       break;
     record_scatter(&scene_data, w.depth, w.walk.ray, w.walk.pdf_w, w.walk.beta);
+    if (capped && w.depth + 1u == limit) cut = mean3(w.walk.beta) / mean3(w.start.beta);
   }
 #if INTG_VERTICES
   light_last[index] = store.last;
   light_first[index] = store.count;
 #endif
-  if (splatted) film_count_rays(splats, diag, launch, rng.path, w.walk.rays);
+  if (splatted && film_count_rays(splats, diag, launch, rng.path, w.walk.rays))
+    cut_add(diag, CUT_light, cut);
 }

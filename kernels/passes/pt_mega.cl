@@ -18,10 +18,12 @@ __kernel void pt_mega(SCENE_PARAMS FILTER_PARAMS FILM_PARAMS
   VertexStore store = vertex_store_at(0, 0, 0u);
   RECORDER(s.rng.path, 0u, 1, 1)
   uint rays;
+  real cut;
   real3 radiance = path_radiance(&scene_data, launch, s.rng, s.ray, camera_pdf_w(camera, s.ray.d),
 #if INTG_LAYERS
                                  layer_sink(layers, diag, launch, pixel),
 #endif
-                                 &store, &rays);
+                                 &store, &rays, &cut);
+  cut_add(diag, CUT_camera, cut);
   samples[pixel] = (float4)(radiance.x, radiance.y, radiance.z, (float)rays);
 }

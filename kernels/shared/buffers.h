@@ -71,7 +71,8 @@
 
 #define AOV_BUFFERS(X) X(AovPixel, aovs, "what camera rays meet first [pixels]")
 
-#define DIAG_BUFFERS(X) X(uint, diag, "counters of what went wrong [DIAG_COUNT]")
+#define DIAG_BUFFERS(X) \
+  X(uint, diag, "counters of what went wrong, and sums of throughput cut off [DIAG_WORDS]")
 
 // Counters: X(name, is an error, meaning). Errors fail a render under --strict.
 #define DIAG_COUNTERS(X)                                                                     \
@@ -88,6 +89,12 @@
 
 #define DIAG_ENUM(name, error, meaning) DIAG_##name,
 enum { DIAG_COUNTERS(DIAG_ENUM) DIAG_COUNT };
+
+// Behind them: throughput that --max-depth cut off, as shares of what the paths started with. Whole
+// numbers of 64 bits, so that sums do not depend on order: steps of 2^-32, low word first.
+enum { CUT_camera, CUT_light, CUT_COUNT };
+#define DIAG_CUTS ((DIAG_COUNT + 1) / 2 * 2) /* on 8 bytes, for 64-bit atomics */
+#define DIAG_WORDS (DIAG_CUTS + 2 * CUT_COUNT)
 
 /// Counts an event.
 INLINE void diag_add(GLOBAL uint* diag, uint counter) {

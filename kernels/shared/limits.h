@@ -103,6 +103,11 @@
 /// bits are counted.
 #define SPLAT_FIXED_MAX 4611686018427387904.0f /* 2^62 */
 
+/// Throughput cut off by --max-depth counts steps of 2^-32 of what paths start with. The largest
+/// share of one path, 2^12, is beyond what roulette makes of any: sums are for telling, no picture.
+#define CUT_STEPS 4294967296.0f
+#define CUT_SHARE_MAX 4096.0f
+
 /// Layers count steps of 2^-44 of the brightest light, seen by the camera or lighting a surface,
 /// and all passes add up in 64 bits: 2^20 passes of the brightest fit.
 #define LAYER_FRACTION_BITS 44

@@ -202,14 +202,15 @@ INLINE int walk_ends_spread(PRIVATE const Vertex* v) {
 #endif
 }
 
-/// Radiance [W/(m^2 sr)] along a camera ray; *rays receives the number of rays traced. `store`
-/// takes the vertices that light paths will be connected to (unused without INTG_VERTICES).
+/// Radiance [W/(m^2 sr)] along a camera ray; *rays receives the number of rays traced, *cut the
+/// throughput with which --max-depth kept it from going on. `store` takes the vertices that light
+/// paths will be connected to (unused without INTG_VERTICES).
 INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rng, Ray camera_ray,
                            real pdf_camera,
 #if INTG_LAYERS
                            LayerSink layers,
 #endif
-                           PRIVATE VertexStore* store, PRIVATE uint* rays) {
+                           PRIVATE VertexStore* store, PRIVATE uint* rays, PRIVATE real* cut) {
   Walk walk = walk_start(camera_ray, REAL3(1.0f, 1.0f, 1.0f));
 #if INTG_PARTIALS
   walk.partials = partials_from_camera(launch, pdf_camera);
@@ -222,6 +223,7 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
   walk.spread = REAL(1.0) / r_sqrt(pdf_camera);
 #endif
   uint limit = depth_limit(launch);
+  *cut = REAL(0.0);
   for (uint depth = 1; depth <= limit; ++depth) {
     ++walk.rays;
     Hit hit = bvh_trace(scene, walk.ray, 0);
@@ -234,21 +236,25 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
     walk.length += length3(surface.p - walk.p_prev);
 #endif
     walk_emission(scene, launch, &surface, depth, &walk);
-    if (depth == limit) {
-      if (launch.max_depth > limit) diag_count(scene, DIAG_path_stuck);
+    int last = depth == limit;  // it scatters once more, but only to know what is cut off
+    if (last && launch.max_depth > limit) {
+      diag_count(scene, DIAG_path_stuck);
       break;
     }
     Vertex v = vertex_at(scene, surface, -walk.ray.d, 0);
     if (v.black) break;
     uint bounce = depth - 1u;
-    walk_keep(store, launch, depth, &v, &walk);
-    walk_record(scene, depth, &v, &walk);
-    if (!bsdf_is_delta(v.material)) walk_nee(scene, launch, rng, bounce, &v, &walk);
+    if (!last) {
+      walk_keep(store, launch, depth, &v, &walk);
+      walk_record(scene, depth, &v, &walk);
+      if (!bsdf_is_delta(v.material)) walk_nee(scene, launch, rng, bounce, &v, &walk);
+    }
     int delta_only = walk_ends_spread(&v);
     if (delta_only && !bsdf_has_delta(v.material)) break;
     if (!walk_scatter(scene, launch, rng, DIM_BSDF(bounce), &v, &walk)) break;
-    record_scatter(scene, depth, walk.ray, walk.pdf_w, walk.beta);
+    if (!last) record_scatter(scene, depth, walk.ray, walk.pdf_w, walk.beta);
     if (delta_only && walk.pdf_w > REAL(0.0)) break;
+    if (last) *cut = mean3(walk.beta);
   }
   *rays = walk.rays;
   return walk.radiance;

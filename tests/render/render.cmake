@@ -3,7 +3,8 @@
 set(render_dir ${CMAKE_SOURCE_DIR}/tests/render)
 set(render_sources ${CMAKE_SOURCE_DIR}/tests/support/statistics.cpp)
 foreach(name render_harness closed_form_cases closed_form_test equality equality_test
-             error_test exact_test footprint_test passes_test rigid_test texture_test golden_test filter_test aov_test layers_test
+             depth_cut_test error_test exact_test footprint_test passes_test rigid_test texture_test
+             golden_test filter_test aov_test layers_test
              light_test merging_test photons_test replay_test study_test vertices_test)
   list(APPEND render_sources ${render_dir}/${name}.cpp)
 endforeach()

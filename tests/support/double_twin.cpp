@@ -47,7 +47,8 @@ glm::dvec3 ReferenceScene::path(const Launch& launch, uint path_index, double x,
   const twin::Rng rng{path_index, launch.iteration, launch.seed};
   const twin::Ray ray = twin::camera_ray(state_->packed.camera, x, y);
   twin::VertexStore store = twin::vertex_store_at(nullptr, nullptr, 0);
-  return to_dvec3(twin::path_radiance(&state_->data, launch, rng, ray, 1.0, &store, rays));
+  double cut;
+  return to_dvec3(twin::path_radiance(&state_->data, launch, rng, ray, 1.0, &store, rays, &cut));
 }
 
 }  // namespace pellucid::test

@@ -156,10 +156,11 @@ void audit(const char* name, bool open, uint heuristic) {
     const Ray ray = finder.camera_ray_of(path % 1024);
     std::vector<StoredVertex> vertices(64);
     uint taken = 0, rays = 0;
+    real cut;
     VertexStore store = vertex_store_at(vertices.data(), &taken, 64);
     const real3 whole =
         path_radiance(&twin.data, launch, {path % 1024, launch.iteration, launch.seed}, ray,
-                      camera_pdf_w(twin.packed.camera, ray.d), &store, &rays);
+                      camera_pdf_w(twin.packed.camera, ray.d), &store, &rays, &cut);
     ASSERT_EQ(radiance.x, whole.x) << "the audited walk is not the one that renders";
   }
   audit.report(name);

@@ -180,9 +180,10 @@ class CheckpointTest : public ::testing::Test {
   void write(const Film& film) { write_checkpoint(path, film, example(film).facts); }
 
   static Checkpoint example(const Film& film) {
-    Checkpoint c{film, {{{"seed", "7"}, {"scene", "abc"}}, {}, make_counters(), 12.5, {}}};
+    Checkpoint c{film, {{{"seed", "7"}, {"scene", "abc"}}, {}, make_counters(), {}, 12.5, {}}};
     c.facts.evidence["pellucid:scene"] = std::string("example");
     c.facts.counters[1].count = 5;
+    c.facts.cuts[CUT_light] = {3, 0xfffffff0u, 7};
     c.facts.aovs = {{"Z", {}}, {"N.X", {}}};
     for (int i = 0; i < width * height; ++i) {
       c.facts.aovs[0].data.push_back(float(i) / 3);
@@ -202,6 +203,10 @@ TEST_F(CheckpointTest, ComesBackBitForBit) {
     EXPECT_EQ(back.facts.identity, example(film).facts.identity);
     EXPECT_EQ(back.facts.evidence, example(film).facts.evidence);
     EXPECT_EQ(back.facts.counters[1].count, 5u);
+    EXPECT_EQ(back.facts.cuts[CUT_light].whole, 3u);
+    EXPECT_EQ(back.facts.cuts[CUT_light].part, 0xfffffff0u);
+    EXPECT_EQ(back.facts.cuts[CUT_light].paths, 7u);
+    EXPECT_EQ(back.facts.cuts[CUT_camera].paths, 0u);
     EXPECT_EQ(back.facts.seconds, 12.5);
     ASSERT_EQ(back.facts.aovs.size(), 2u);
     for (std::size_t a = 0; a < 2; ++a) {

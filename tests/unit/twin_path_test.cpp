@@ -37,6 +37,7 @@ Scene looking_from(Scene scene, const glm::dvec3& origin) {
 struct Path {
   double radiance;
   uint rays;
+  double cut;
 };
 
 Path one_path(const TwinScene& twin, const Launch& launch, uint pixel) {
@@ -46,7 +47,9 @@ Path one_path(const TwinScene& twin, const Launch& launch, uint pixel) {
   const Ray ray =
       camera_ray(twin.packed.camera, real(pixel % size) + u.x, real(pixel / size) + u.y);
   VertexStore store = vertex_store_at(nullptr, nullptr, 0);
-  return {double(path_radiance(&twin.data, launch, rng, ray, 1, &store, &rays).x), rays};
+  real cut;
+  const real3 found = path_radiance(&twin.data, launch, rng, ray, 1, &store, &rays, &cut);
+  return {double(found.x), rays, double(cut)};
 }
 
 Moments mean_radiance(const Scene& scene, uint iterations, uint max_depth) {
@@ -83,6 +86,34 @@ TEST(TwinPath, EmittingEnclosureCF1) {
   Scene round = empty_scene(0.5);
   add_shape(round, pellucid::Sphere{{0, 0, 0}, 1}).emission = Emission{Rgb(1.0), 2};
   expect_mean("sphere", mean_radiance(looking_from(round, {0.3, 0.2, 0.1}), 10, unlimited), 2.0);
+}
+
+/// Of a walk between walls of albedo rho, a cap of k segments cuts off rho^k.
+TEST(TwinPath, ThroughputCutOff) {
+  for (double rho : {0.5, 0.9}) {
+    Scene scene = empty_scene(rho);
+    add_shape(scene, lump(300)).emission = Emission{Rgb(1.0), 2};
+    const TwinScene twin(looking_from(scene, {0.1, 0.05, 0}));
+    for (uint k : {1u, 2u, 9u}) {
+      Moments cut;
+      for (uint i = 0; i < 10; ++i)
+        for (uint pixel = 0; pixel < size * size; ++pixel)
+          cut.add(one_path(twin, launch_of(i, k), pixel).cut);
+      const double exact = std::pow(rho, k);
+      EXPECT_GT(z_test(cut, exact, 1e-5 * exact), sidak(family_alpha, 10))
+          << "albedo " << rho << ", cap " << k << ": " << cut.mean << " +- " << cut.standard_error()
+          << ", exact " << exact;
+    }
+    for (uint pixel = 0; pixel < size * size; ++pixel)
+      ASSERT_EQ(one_path(twin, launch_of(0, unlimited), pixel).cut, 0.0) << "without a cap";
+  }
+  // Under the open sky, paths end by themselves before the third segment.
+  Scene open = empty_scene(0.5);
+  add_shape(open, pellucid::Sphere{{0, 0, -3}, 1});
+  open.lights.push_back(pellucid::ConstantEnvironment{Rgb(1.0)});
+  const TwinScene twin(looking_from(open, {0, 0, 0}));
+  for (uint pixel = 0; pixel < size * size; ++pixel)
+    ASSERT_EQ(one_path(twin, launch_of(0, 2), pixel).cut, 0.0) << "pixel " << pixel;
 }
 
 TEST(TwinPath, PointLightInSphereCF2) {
