@@ -61,7 +61,7 @@ void near_vertices_make_no_fireflies(const Lab& lab, Findings& findings) {
     findings.at_most(
         fmt::format("brightest sample of a corner, in those of path, {}", method),
         brightest(Renderer(lab, corner, {method, size, size}).render(one_sample)) / usual, 50);
-  for (const char* method : {"nee", "path", "bdpt", "vcm"}) {
+  for (const char* method : {"nee", "path", "light", "bdpt", "sppm", "bpm", "vcm"}) {
     const Picture picture = Renderer(lab, lamp, {method, size, size}).render(one_sample);
     findings.at_most(
         fmt::format("brightest pixel near a lamp without size, in medians, {}", method),
