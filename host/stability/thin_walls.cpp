@@ -106,7 +106,8 @@ Scene under_mirror() {
 }
 
 /// What discs smooth away below a lamp goes as their area: over N passes its mean falls as
-/// N^-(1 - alpha), and is known by the last digit for every N.
+/// N^-(1 - alpha), and is known by the last digit for every N. (So few passes of discs so wide keep
+/// the slope 0.07 to 0.11 flatter than that.)
 void measure_shrinking(const Lab& lab, Findings& findings) {
   constexpr double h = 1, r0 = 0.7, middle = 0.5 / (pi * h * h);  // rho I / (pi h^2)
   constexpr std::uint64_t passes[2] = {4, 128};
