@@ -45,7 +45,7 @@ const Case table[] = {
     {13, "dielectrics", "total reflection, grazing angles, index 1, eta^2", "path, bdpt, sppm, vcm",
      "the square root of a negative number, half vectors of 0/0", panes_let_through_what_they_must,
      ""},
-    {14, "fireflies", "vertices that almost coincide", "nee, path, bdpt, vcm",
+    {14, "fireflies", "vertices that almost coincide", "nee, path, light, bdpt, sppm, bpm, vcm",
      "a pixel 80000 times the median beside a lamp without size", near_vertices_make_no_fireflies,
      ""},
     {15, "thin-glass", "glass thinner than what keeps rays off surfaces", "path, bdpt, vcm",

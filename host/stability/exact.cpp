@@ -41,6 +41,7 @@ void scale_changes_no_bit(const Lab& lab, Findings& findings) {
     findings.none(fmt::format("pixels that differ, lengths times 2^-33 to 2^33, {}", method),
                   differing);
   }
+  files_have_no_scale(lab, findings);
 }
 
 void short_buffers_drop_nothing(const Lab& lab, Findings& findings) {

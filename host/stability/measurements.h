@@ -51,6 +51,8 @@ void sums_never_stall(const Lab& lab, Findings& findings);
 void noise_is_independent(const Lab& lab, Findings& findings);
 // explained.cpp: 25
 void faults_are_named(const Lab& lab, Findings& findings);
+// file_scales.cpp: 10, called by exact.cpp
+void files_have_no_scale(const Lab& lab, Findings& findings);
 // degenerate.cpp: 26
 void degenerate_triangles_do_no_harm(const Lab& lab, Findings& findings);
 // coplanar.cpp: 27

@@ -156,4 +156,31 @@ void transform_points(Scene& scene, const glm::dvec3& scale, const glm::dvec3& m
   for (glm::dvec3* d : {&c.right, &c.up, &c.forward}) *d *= scale;
 }
 
+Scene turned(Scene scene, const glm::dmat3& turn) {
+  for (Shape& shape : scene.shapes) {
+    if (Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
+      for (glm::vec3& p : mesh->positions) p = turn * glm::dvec3(p);
+      for (glm::vec3& n : mesh->normals) n = turn * glm::dvec3(n);
+    } else if (Sphere* sphere = std::get_if<Sphere>(&shape.geometry)) {
+      sphere->center = turn * sphere->center;
+      sphere->axes = turn * sphere->axes;
+    } else {
+      Disk& disk = std::get<Disk>(shape.geometry);
+      for (glm::dvec3* v : {&disk.center, &disk.normal, &disk.u_axis, &disk.v_axis}) *v = turn * *v;
+    }
+  }
+  for (Light& light : scene.lights)
+    if (PointLight* lamp = std::get_if<PointLight>(&light)) {
+      lamp->position = turn * lamp->position;
+    } else if (SpotLight* spot = std::get_if<SpotLight>(&light)) {
+      spot->position = turn * spot->position;
+      spot->direction = turn * spot->direction;
+    } else if (DirectionalLight* sun = std::get_if<DirectionalLight>(&light)) {
+      sun->direction = turn * sun->direction;
+    }
+  Camera& c = scene.camera;
+  for (glm::dvec3* v : {&c.origin, &c.right, &c.up, &c.forward}) *v = turn * *v;
+  return scene;
+}
+
 }  // namespace pellucid::stability

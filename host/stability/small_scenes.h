@@ -59,4 +59,8 @@ Scene scaled(Scene scene, int k);
 /// Mirrors at the axes of which `scale` is -1, then moves.
 void transform_points(Scene& scene, const glm::dvec3& scale, const glm::dvec3& move);
 
+/// Turns shapes, lights and camera about the origin; columns of `turn` are orthonormal and
+/// right-handed.
+Scene turned(Scene scene, const glm::dmat3& turn);
+
 }  // namespace pellucid::stability
