@@ -30,7 +30,7 @@ struct Case {
   double slack = 1e-5;
   int size = 48;  ///< pixels along a side; fewer where paths are long
   /// Where light is merged: the radius in all passes; 0: the default one, of a value that is all
-  /// direct. What discs lose at the edges of a room of radius 1 is of second order in it.
+  /// direct.
   double radius = 0;
 };
 

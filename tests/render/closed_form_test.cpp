@@ -72,7 +72,7 @@ TEST_P(ClosedForm, holds) {
     for (const Target& target : c.targets) {
       SCOPED_TRACE(method +
                    (target.max_depth ? ", depth " + std::to_string(*target.max_depth) : ""));
-      check_target(renderer, method, target, c.slack + (merged ? c.radius * c.radius : 0));
+      check_target(renderer, method, target, c.slack);
     }
     EXPECT_TRUE(
         unreachable_paths(find_integrator(method), optics_of(renderer.packed(), {})).empty());

@@ -24,6 +24,9 @@ constexpr double disc = radius * radius / 2;
 /// A camera below the lamp that looks straight down at the floor y = 0.
 Scene seen_from_above(Scene scene) {
   constexpr double height = 0.5;
+  for (Shape& s : scene.shapes)
+    if (s.name == "floor")
+      for (glm::vec3& p : std::get<Mesh>(s.geometry).positions) p *= 0.1f;  // 2 x 2
   scene.camera.origin = {0, height, 0};
   scene.camera.forward = {0, -1, 0};
   scene.camera.right = {1, 0, 0}, scene.camera.up = {0, 0, 1};
@@ -45,7 +48,7 @@ void expect_value(const Scene& scene, double value) {
     Renderer renderer(scene, build);
     Sampling run;
     const auto spp =
-        renderer.spp_for(run, tier_tolerance() / 8, std::uint64_t(4096 * tier_effort()));
+        renderer.spp_for(run, tier_tolerance() / 8, std::uint64_t(16384 * tier_effort()));
     run.spp = spp / runs + 1;
     Sample sample;
     for (int k = 0; k < runs; ++k) {
