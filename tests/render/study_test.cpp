@@ -163,8 +163,10 @@ TEST(StudyPairs, relaxed_arithmetic_is_near) {
   Ground ground("cornell-box");
   Contender strict = ground.contender("path");
   const StudyPicture mean = strict.run(1, 256).picture;
+  // Builds its kernels, which the driver keeps: on a busy machine that alone may take the budget.
+  Contender(ground.stage, strict.method(), "mad").run(1, 1);
   const auto pair =
-      compare_precision(ground.stage, {&strict, "mad"}, relmse_weights(mean), 5, 4, quiet);
+      compare_precision(ground.stage, {&strict, "mad"}, relmse_weights(mean), 5, 8, quiet);
   ASSERT_TRUE(pair.has_value());
   EXPECT_EQ(pair->runs, 5);
   EXPECT_LT(std::abs(pair->bias2), 1e-4) << "1 %";
