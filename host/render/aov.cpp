@@ -130,7 +130,7 @@ const std::vector<AovInfo>& aov_table() {
        [](const AovPixel& p, std::size_t c) { return row3(p.position, c); }},
       {"N",
        {"N.X", "N.Y", "N.Z"},
-       "shading normal towards the camera",
+       "shading normal, on the side of the surface that the camera sees",
        true,
        [](const AovPixel& p, std::size_t c) { return row3(p.normal, c); }},
       {"Ng",

@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "render/aov.h"
 #include "stability/measurements.h"
+#include "stability/renderer.h"
 #include "stability/small_scenes.h"
 
 namespace pellucid::stability {
@@ -23,23 +22,13 @@ constexpr double pi = 3.14159265358979323846;
 double worst_pixel(const Lab& lab, double fov) {
   const double half = std::tan(0.5 * fov * pi / 180);
   Scene scene = empty_scene();
-  scene.settings.width = scene.settings.height = size;
-  scene.settings.filter = PixelFilter::box;
   const auto h = float(1.5 * half);
   Mesh sheet;
   sheet.positions = {{-h, -h, -1}, {h, -h, -1}, {h, h, -1}, {-h, h, -1}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
   add_shape(scene, std::move(sheet));
   scene.camera.fov = fov;
-  const PackedScene packed = pack_scene(scene, {simd_width_for(lab.device.info())});
-  RenderOptions options;
-  options.width = options.height = size;
-  options.plan.extra_features = all_scene_features();
-  options.plan.kernel_dir = lab.kernel_dir;
-  std::vector<Counter> counters = make_counters();
-  std::map<std::string, std::vector<float>> aov;
-  const auto channels = render_aovs(lab.device, packed, {"P"}, options, counters);
-  for (const AovChannel& channel : *channels) aov[channel.name] = channel.data;
+  std::map<std::string, std::vector<float>> aov = first_surfaces(lab, scene, {"P"}, size);
   double worst = 0;
   const double pixel = 2 * half / size;
   for (int y = 0; y < size; ++y)

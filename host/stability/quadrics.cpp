@@ -11,8 +11,8 @@
 #include <map>
 #include <optional>
 
-#include "render/aov.h"
 #include "stability/measurements.h"
+#include "stability/renderer.h"
 
 namespace pellucid::stability {
 namespace {
@@ -79,18 +79,9 @@ void measure_silhouette(const Lab& lab, Findings& findings) {
 
 /// Where a camera that has the ball in four fifths of its picture sees it, by pixels; nothing where
 /// rays pass by.
-std::vector<std::optional<glm::dvec3>> seen_points(const Lab& lab, Scene scene) {
+std::vector<std::optional<glm::dvec3>> seen_points(const Lab& lab, const Scene& scene) {
   constexpr int size = 128;
-  scene.settings.width = scene.settings.height = size;
-  RenderOptions options;
-  options.width = options.height = size;
-  options.plan.extra_features = all_scene_features();
-  options.plan.kernel_dir = lab.kernel_dir;
-  std::vector<Counter> counters = make_counters();
-  std::map<std::string, std::vector<float>> aov;
-  const PackedScene packed = pack_scene(scene, {simd_width_for(lab.device.info())});
-  const auto channels = render_aovs(lab.device, packed, {"P", "Z"}, options, counters);
-  for (const AovChannel& channel : *channels) aov[channel.name] = channel.data;
+  std::map<std::string, std::vector<float>> aov = first_surfaces(lab, scene, {"P", "Z"}, size);
   std::vector<std::optional<glm::dvec3>> points(std::size_t(size) * size);
   for (std::size_t i = 0; i < points.size(); ++i)
     if (std::isfinite(aov.at("Z")[i]))

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "integrators/reach.h"
 #include "integrators/registry.h"
+#include "render/aov.h"
 #include "render/launch.h"
 #include "shared/limits.h"
 
@@ -227,6 +228,21 @@ std::uint64_t Renderer::spp_for(const Sampling& run, double relative, std::uint6
     if (e.mean > 0) worst = std::max(worst, e.variance / (e.mean * e.mean));
   const double spp = double(pilot.spp) * worst / (relative * relative);
   return std::clamp(std::uint64_t(spp) + 1, std::uint64_t{16}, most);
+}
+
+std::map<std::string, std::vector<float>> first_surfaces(const Lab& lab, const Scene& scene,
+                                                         const std::vector<std::string>& channels,
+                                                         int size) {
+  RenderOptions options;
+  options.width = options.height = size;
+  options.plan.extra_features = all_scene_features();
+  options.plan.kernel_dir = lab.kernel_dir;
+  std::vector<Counter> counters = make_counters();
+  std::map<std::string, std::vector<float>> aov;
+  const auto found =
+      render_aovs(lab.device, pack(lab, scene, {"path", size, size}), channels, options, counters);
+  for (const AovChannel& channel : *found) aov[channel.name] = channel.data;
+  return aov;
 }
 
 Picture session_render(const Lab& lab, const Scene& scene, const Build& build, const Sampling& run,

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -109,7 +110,12 @@ class Renderer {
   DepthCuts cuts_{};
 };
 
-/// The same through a Session, as the program renders.
+/// What camera rays of a square picture meet first, by channel (`render --aov`): a float per pixel.
+std::map<std::string, std::vector<float>> first_surfaces(const Lab& lab, const Scene& scene,
+                                                         const std::vector<std::string>& channels,
+                                                         int size);
+
+/// Renderer::render through a Session, as the program renders.
 Picture session_render(const Lab& lab, const Scene& scene, const Build& build, const Sampling& run,
                        const RenderHooks& hooks = {});
 
