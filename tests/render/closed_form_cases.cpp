@@ -59,7 +59,7 @@ Case point_in_sphere() {
           {"nee", "path", "bdpt", "light", "sppm", "bpm", "vcm"},
           by_chance,
           1e-5,
-          24,
+          48,
           0.1};
 }
 
