@@ -88,26 +88,32 @@ INLINE VertexEnds vertex_ends(PRIVATE const Vertex* v, real3 wi) {
   return ends;
 }
 
+/// Turns the vertex to one image of the light's end: the context of its lobes, and the direction
+/// that they are asked for.
+INLINE real3 vertex_turn(PRIVATE const Vertex* v, real3 wo, real3 image, PRIVATE BsdfContext* c) {
+  *c = v->context;
+  if (!c->importance) return image;
+  c->wo = image;
+  return wo;
+}
+
 /// f |wi.ns| and density of the lobes for one image of the light's end.
 INLINE BsdfEval vertex_eval_image(PRIVATE const SceneData* scene, PRIVATE const Vertex* v, real3 wo,
                                   real3 image) {
-  BsdfContext c = v->context;
-  if (c.importance) c.wo = image;
-  BsdfEval e =
-      material_eval(scene, v->material, c, &v->surface, v->side, c.importance ? wo : image);
-  real cosine = r_abs(image.z);
-  e.f = e.f * cosine;
-  if (c.importance) e.pdf_w *= cosine;
+  BsdfContext c;
+  real3 towards = vertex_turn(v, wo, image, &c);
+  BsdfEval e = material_eval(scene, v->material, c, &v->surface, v->side, towards);
+  e.f = e.f * r_abs(image.z);
+  if (c.importance) e.pdf_w *= r_abs(image.z);
   return e;
 }
 
 /// Density of the way back of the lobes for one image of the light's end.
 INLINE real vertex_reverse_image(PRIVATE const SceneData* scene, PRIVATE const Vertex* v, real3 wo,
                                  real3 image) {
-  BsdfContext c = v->context;
-  if (c.importance) c.wo = image;
-  real pdf_w =
-      material_pdf_reverse(scene, v->material, c, &v->surface, v->side, c.importance ? wo : image);
+  BsdfContext c;
+  real3 towards = vertex_turn(v, wo, image, &c);
+  real pdf_w = material_pdf_reverse(scene, v->material, c, &v->surface, v->side, towards);
   return c.importance ? pdf_w : pdf_w * r_abs(image.z);
 }
 #endif
