@@ -224,6 +224,7 @@ void pack_shapes(const Scene& scene, PackedScene& out) {
   }
   if (!out.normals.empty()) out.normals.resize(out.positions.size());
   out.info.triangle_count = static_cast<uint>(triangles);
+  out.info.closed = scene.closed;
 }
 
 void pack_bvh(PackedScene& out) {

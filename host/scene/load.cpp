@@ -126,6 +126,7 @@ Scene load_scene(const std::string& path, const LoadOptions& options) {
   scene.path = path;
   scene.name = file.stem().string();
   if (reader.has("description")) scene.description = reader.text("description");
+  scene.closed = reader.boolean("closed");
   scene.settings = parse_settings(reader.value("film"), reader.value("integrator"));
   if (options.size) std::tie(scene.settings.width, scene.settings.height) = *options.size;
   if (!bare) scene.camera = parse_camera(reader.value("camera"));

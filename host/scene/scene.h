@@ -161,6 +161,7 @@ struct Scene {
   std::string name;         ///< file name without folder and suffix
   std::string path;         ///< as opened
   std::string description;  ///< the file's "description": why the scene is here
+  bool closed = false;      ///< the file promises that no ray can leave it
   /// Where coordinates are counted from, in those of the file. Not 0 where the scene lies so far
   /// away that floats would round it visibly: then near its middle.
   glm::dvec3 origin{0.0};

@@ -68,6 +68,8 @@ std::vector<ObjectSpec> scene_specs() {
             "for editors: where the JSON schema of this format is"},
            {"version", T::integer, required, {1, 1}, "version of the format"},
            {"description", T::text, optional, any, "why the scene is here"},
+           {"closed", T::boolean, "false", any,
+            "promises that no ray can leave it: those that do are counted, as errors"},
            {"camera", T::object, required, any, "pinhole camera", {}, "camera"},
            {"film", T::object, "{}", any, "size and filter of the picture", {}, "film"},
            {"integrator",

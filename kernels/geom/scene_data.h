@@ -32,4 +32,9 @@ INLINE void diag_count(PRIVATE const SceneData* scene, uint counter) {
   diag_add(scene->diag, counter);
 }
 
+/// A ray of a walk has left the scene: if that says it is closed, it has a crack.
+INLINE void scene_left(PRIVATE const SceneData* scene) {
+  if (scene->info.closed) diag_count(scene, DIAG_escaped);
+}
+
 #endif

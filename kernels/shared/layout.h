@@ -153,8 +153,10 @@ typedef struct SceneInfo {
   uint triangle_count;
   uint light_count;
   uint environment;  // index of the environment light, or NONE
+  uint closed;       // 1: no ray should leave it
+  uint pad0, pad1, pad2;
 } SceneInfo;
-LAYOUT_CHECK(SceneInfo, 48);
+LAYOUT_CHECK(SceneInfo, 64);
 
 /// Pinhole camera as increments over pixels: direction(x, y) = corner + x dx + y dy, not
 /// normalised, x and y in pixels from the top left. Written by pack.

@@ -2,6 +2,7 @@
 #ifndef PELLUCID_TRANSPORT_CONNECT_H
 #define PELLUCID_TRANSPORT_CONNECT_H
 
+#include "transport/mis.h"
 #include "transport/stored_vertex.h"
 #include "transport/walk.h"
 
@@ -36,10 +37,11 @@ INLINE int connect_vertices(PRIVATE const SceneData* scene, Launch launch,
 #if INTG_MERGE
   from_light.trust = merge_trust(launch, 0, light->depth == 1u);
 #endif
-  link->weight = partial_weight(
+  real weight = partial_weight(
       launch.mis,
       partials_end(launch, from_light, e.pdf_w * survive_e * cos_g_light / d2, reverse_l),
       partials_end(launch, eye->partials, l.pdf_w * survive_l * cos_g_eye / d2, reverse_e));
+  link->weight = mis_counted(scene, weight);
   real3 target = spawn_origin(light->v.surface.p, light->v.surface.ng, light->v.surface.offset, -w);
   return shadow_ray(&eye->v.surface, w, target, &link->ray);
 }

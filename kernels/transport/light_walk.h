@@ -5,6 +5,7 @@
 
 #include "camera/camera.h"
 #include "light/emission.h"
+#include "transport/mis.h"
 #include "transport/walk.h"
 
 typedef struct LightWalk {
@@ -56,7 +57,10 @@ INLINE int light_walk_next(PRIVATE const SceneData* scene, Launch launch, PRIVAT
   ++w->walk.rays;
   ++w->depth;
   Hit hit = bvh_trace(scene, w->walk.ray, 0);
-  if (hit.prim == NONE) return 0;
+  if (hit.prim == NONE) {
+    scene_left(scene);
+    return 0;
+  }
   *v = vertex_at(scene, surface_at(scene, w->walk.ray, hit), -w->walk.ray.d, 1);
   if (v->black) return 0;
 #if INTG_PARTIALS
@@ -96,7 +100,7 @@ INLINE int camera_link(PRIVATE const SceneData* scene, Launch launch, Camera cam
   q.trust = merge_trust(launch, 1, w->depth == 1u);
 #endif
   real others = partials_end(launch, q, cos_g * scale, reverse);
-  link->weight = partial_weight(launch.mis, others, REAL(0.0));
+  link->weight = mis_counted(scene, partial_weight(launch.mis, others, REAL(0.0)));
 #endif
   return shadow_ray(&v->surface, wi, load3(camera.origin), &link->ray);
 }

@@ -4,6 +4,7 @@
 #define PELLUCID_TRANSPORT_MERGE_H
 
 #include "transport/grid.h"
+#include "transport/mis.h"
 #include "transport/stored_vertex.h"
 #include "transport/walk.h"
 
@@ -45,7 +46,7 @@ INLINE int merge_photon(PRIVATE const SceneData* scene, Launch launch, PRIVATE c
   light.trust = eye->partials.trust;
   real on_light = partials_merge(launch, light, e.pdf_w * survive);
   real on_eye = partials_merge(launch, eye->partials, reverse);
-  merge->weight = partial_weight(launch.mis, on_light, on_eye);
+  merge->weight = mis_counted(scene, partial_weight(launch.mis, on_light, on_eye));
 #endif
   return 1;
 }

@@ -44,7 +44,7 @@ typedef struct Found {
 
 /// Adds what a path brought.
 INLINE void walk_gather(PRIVATE const SceneData* scene, PRIVATE Walk* walk, Found found) {
-  real3 brought = found.value * found.weight;
+  real3 brought = found.value * mis_counted(scene, found.weight);
   walk->radiance += brought;
 #if INTG_LAYERS
   layer_add(walk->layers, found.value, found.weight, found.s, found.depth);
@@ -228,6 +228,7 @@ INLINE real3 path_radiance(PRIVATE const SceneData* scene, Launch launch, Rng rn
     ++walk.rays;
     Hit hit = bvh_trace(scene, walk.ray, 0);
     if (hit.prim == NONE) {
+      scene_left(scene);
       walk_escaped(scene, launch, depth, &walk);
       break;
     }

@@ -172,6 +172,34 @@ def test_strict():
         compared = document(["compare", name + ".exr", name + ".exr"])
         check(compared["nonfinite"] == 0, "the picture is finite", compared)
     expect(0, [*QUICK, "--strict"])
+
+
+def test_weights_are_weighed():
+    """A weight above 1 in the walks of `path`, which mix two ways to find light."""
+    shutil.copytree(os.path.join(SOURCE, "kernels"), "heavy")
+    source = read_bytes("heavy/transport/mis.h").decode()
+    place = "return (a >= b ? REAL(1.0) : r) / (REAL(1.0) + r);"
+    check(source.count(place) == 1, "mis.h has one place for the fault")
+    write_text("heavy/transport/mis.h", source.replace(place, "return REAL(1.0) + r;"))
+    lit = [*QUICK, "-i", "path", "-o", "heavy.exr"]
+    expect(0, [*lit, "--strict"])
+    expect(6, [*lit, "--strict", "--kernel-dir", "heavy"], "weight_outside")
+
+
+def test_closed_scenes():
+    """Rays that leave a scene which says that it is closed are counted, on walks of both kinds."""
+    wall = {"type": "sphere", "material": "grey", "center": [0, 0, 0], "radius": 10}
+    closed = {**ROOM, "closed": True, "shapes": [*ROOM["shapes"], wall],
+              "lights": [{"type": "point", "position": [0, 3, 0], "intensity": 1}]}
+    for shapes, code, text in ((closed["shapes"], 0, ""), (ROOM["shapes"], 6, " escaped (")):
+        write_text("closed.json", json.dumps({**closed, "shapes": shapes}))
+        for method in ("path", "light"):
+            expect(code, ["closed.json", *QUICK[1:], "-i", method, "--strict"], text)
+    write_text("open.json", json.dumps({**closed, "closed": False, "shapes": ROOM["shapes"]}))
+    expect(0, ["open.json", *QUICK[1:], "--strict"])
+
+
+def test_strict_warnings():
     flat = {"type": "mesh", "material": "grey", "file": "flat.obj"}
     write_text("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n")
     write_text("warns.json", json.dumps({**ROOM, "shapes": [*ROOM["shapes"], flat]}))
