@@ -66,9 +66,8 @@ const Case table[] = {
      "float atomics add in the order of arrival", work_groups_change_no_bit, ""},
     {23, "noise", "random numbers that are not independent", "path, bdpt",
      "1 is drawn once in 3.4e7; equal seeds on several devices", noise_is_independent, ""},
-    {24, "long-paths", "albedos near 1, depth caps, roulette",
-     "naive, path, reference, bdpt, sppm, vcm", "a cap of 10 at albedo 0.8 loses 8.6 %",
-     long_paths_lose_nothing, ""},
+    {24, "long-paths", "albedos near 1, depth caps, roulette", "all",
+     "a cap of 10 at albedo 0.8 loses 8.6 %", long_paths_lose_nothing, ""},
     {25, "explain", "pictures that are not equally bright, and nobody knows why", "path",
      "a cap of 10, a clamp, 2 % of albedo or a light's back, unseen for years", faults_are_named,
      ""},
@@ -103,7 +102,7 @@ const Case table[] = {
     {37, "hangs", "walks that never end, kernels that watchdogs kill", "all",
      "a NaN direction loops for ever; launches of seconds are ended by the driver", everything_ends,
      ""},
-    {38, "many-lights", "picking among lights of 1e6 : 1 in power", "nee, path, bdpt",
+    {38, "many-lights", "picking a lamp that gives little", "nee, path, light, bdpt, vcm",
      "a visible light has probability 0, or the last one is never picked", lights_add_up, ""},
 };
 

@@ -1,7 +1,9 @@
-// Cameras at their limits (numerics 35): fields of view from a thousandth of a degree to 170, and
-// far from the origin; rays as double has them. There are no apertures and no orthographic cameras.
+// Cameras at their limits (numerics 35): fields of view from a thousandth of a degree to 170; rays
+// as double has them. Naive code derives directions from whole pixels or loses them in tan and its
+// inverse. There are no apertures and no orthographic cameras.
 //
-// Rays are made from a corner and two steps that the host computes in double (pack/pack.cpp).
+// Rays are made from a corner and two steps that the host computes in double (pack/pack.cpp), which
+// costs kernels nothing.
 #include <fmt/format.h>
 
 #include <algorithm>

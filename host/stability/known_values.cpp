@@ -1,6 +1,13 @@
-// Renders whose value is known, where naive code loses digits or energy: light that no technique
-// can sample (numerics 3), small lights (11), roughness near 0 (12), dielectrics at every angle and
-// index (13), long paths (24).
+// Renders whose value is known, where naive code loses digits or energy.
+//
+// Light that no technique can sample (numerics 3) has no variance, so that noise cannot tell of it:
+// the host knows from materials, lights and camera which classes of paths a method misses
+// (integrators/reach.h), at no cost in kernels. Small lights (11): 1 - cos of a cone cancels, so it
+// is made of sin^2, by a division more. Roughness near 0 (12): D of 1 - cos^2 has no digits, so it
+// is made of tangents, at the same cost; below ALPHA_DELTA lobes are mirrors. Dielectrics (13):
+// roots of negative numbers past the critical angle, half vectors of 0/0 at index 1, n^2 of
+// radiance alone: clamps, a branch and a flag. Long paths (24): caps lose rho^(k + 1), and say so
+// (depth_cut, an atomic for each path that a cap ends).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -257,6 +264,7 @@ void long_paths_lose_nothing(const Lab& lab, Findings& findings) {
             resolution);
     }
   caps_tell_what_they_cut(lab, findings, scene, rho);
+  roulette_changes_no_mean(lab, findings);
 }
 
 }  // namespace pellucid::stability

@@ -18,6 +18,8 @@ void panes_let_through_what_they_must(const Lab& lab, Findings& findings);
 void long_paths_lose_nothing(const Lab& lab, Findings& findings);
 // all_scenes.cpp: 4
 void nothing_is_dropped(const Lab& lab, Findings& findings);
+// roulette.cpp: 24, called by known_values.cpp
+void roulette_changes_no_mean(const Lab& lab, Findings& findings);
 // float_modes.cpp: 5
 void relaxed_modes_keep_the_picture(const Lab& lab, Findings& findings);
 // strategies.cpp: 6

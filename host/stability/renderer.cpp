@@ -20,7 +20,11 @@ PackedScene pack(const Lab& lab, Scene scene, const Build& build) {
   scene.settings.height = build.height;
   scene.settings.filter = build.filter;
   const int lanes = build.simd_width ? build.simd_width : simd_width_for(lab.device.info());
-  return pack_scene(scene, {lanes});
+  PackedScene packed = pack_scene(scene, {lanes});
+  if (!build.roulette)
+    for (::Material& m : packed.materials)
+      if (m.survive > 0) m.survive = 1;
+  return packed;
 }
 
 PlanOptions plan_options(const Lab& lab, const Build& build) {
@@ -131,6 +135,9 @@ Renderer::Renderer(const Lab& lab, const Scene& scene, const Build& build)
 void Renderer::check_counters() {
   std::vector<Counter> counters = make_counters();
   plan_.collect(counters, cuts_);
+  if (build_.count_escapes)
+    for (Counter& c : counters)
+      if (c.name == "escaped") escapes_ += std::exchange(c.count, 0);
   require_no_errors(build_.method, counters);
 }
 

@@ -38,6 +38,8 @@ struct Build {
       {};  ///< most bytes of the device beyond what is planned at first
   FloatMode float_mode = FloatMode::strict;
   std::size_t launch_items = 0;  ///< work-items of a launch; 0: as many as are quick enough
+  bool count_escapes = false;    ///< rays that leave a closed scene are no error (take_escapes)
+  bool roulette = true;          ///< false: walks go on wherever anything is scattered
 };
 
 /// Mean and variance of that mean.
@@ -94,6 +96,8 @@ class Renderer {
   std::uint64_t spp_for(const Sampling& run, double relative, std::uint64_t most);
   /// What depth caps cut off since the last call.
   DepthCuts take_cuts() { return std::exchange(cuts_, {}); }
+  /// Rays that have left a closed scene since the last call.
+  std::uint64_t take_escapes() { return std::exchange(escapes_, 0); }
   const PackedScene& packed() const { return packed_; }
   const Plan& plan() const { return plan_; }
 
@@ -108,6 +112,7 @@ class Renderer {
   PackedScene packed_;
   Plan plan_;
   DepthCuts cuts_{};
+  std::uint64_t escapes_ = 0;
 };
 
 /// What camera rays of a square picture meet first, by channel (`render --aov`): a float per pixel.

@@ -138,7 +138,7 @@ void measure_brute_force(const Lab& lab, Findings& findings) {
   // the others meet none to speak of.
   const double excusable[kinds] = {1e-4, 3e-3, 0.01, 0.06, 0.12};
   for (int k = 0; k < kinds; ++k) {
-    const std::vector<TraceRay> rays = make_rays(Kind(k), scene, lab.count(20000) / kinds);
+    const std::vector<TraceRay> rays = make_rays(Kind(k), scene, lab.count(1000000) / kinds);
     const std::vector<TraceHit> hits = scene.closest(rays);
     Judged verdict;
     for (std::size_t i = 0; i < rays.size(); ++i) judge(scene, rays[i], hits[i], verdict);
@@ -223,9 +223,9 @@ void layouts_agree(const Lab& lab, Findings& findings) {
 
 void traversal_misses_nothing(const Lab& lab, Findings& findings) {
   measure_brute_force(lab, findings);
-  const auto shells = int(20000 * std::min(5.0, lab.effort));
-  measure_shells(lab, findings, "octahedra", nested_octahedra(shells), uint(shells), 8);
-  measure_shells(lab, findings, "spheres", nested_spheres(100000), 100000, 1);
+  constexpr int octahedra = 125000, spheres = 1000000;  // as many triangles
+  measure_shells(lab, findings, "octahedra", nested_octahedra(octahedra), octahedra, 8);
+  measure_shells(lab, findings, "spheres", nested_spheres(spheres), spheres, 1);
 }
 
 }  // namespace pellucid::stability

@@ -16,7 +16,7 @@ typedef struct FilmPosition {
 /// error of the filter's integral is below 1e-6 for all filters (a test measures it).
 INLINE real filter_offset(GLOBAL const float* filter_table, real u) {
   // Half a step of u makes u and its mirror image exact opposites; both lines are exact in float.
-  real t = REAL(2.0) * u - REAL(1.0) + REAL(5.9604644775390625e-8); /* 2^-24 */
+  real t = REAL(2.0) * u - REAL(1.0) + RNG_STEP;
   real r = r_sqrt(REAL(1.0) - r_abs(t)) * (real)FILTER_STEPS;
   uint k = (uint)r;
   k = k < FILTER_STEPS - 1u ? k : FILTER_STEPS - 1u;

@@ -35,9 +35,12 @@ INLINE U4 rng_words(Rng rng, uint dimension) {
 #endif
 }
 
+#define RNG_STEP REAL(5.9604644775390625e-8)   /* 2^-24, between numbers drawn in [0, 1) */
+#define WORD_STEP REAL(2.3283064365386963e-10) /* 2^-32, of a whole word as a share of 1 */
+
 /// A word as a number in [0, 1): the upper 24 bits, exact in float.
 INLINE real rng_unit(uint word) {
-  return (real)(word >> 8) * REAL(5.9604644775390625e-8);
+  return (real)(word >> 8) * RNG_STEP;
 }
 
 INLINE Random4 rng4(Rng rng, uint dimension) {

@@ -158,9 +158,11 @@ INLINE int film_count_rays(__global uint* splats, __global uint* diag, Launch la
   return 1;
 }
 
+#define WORD_RANGE 4294967296.0f /* 2^32 */
+
 /// A splat counter as radiance.
 INLINE float splat_value(__global const uint* word, float scale) {
-  return ((float)word[1] * 4294967296.0f + (float)word[0]) / scale;
+  return ((float)word[1] * WORD_RANGE + (float)word[0]) / scale;
 }
 
 #endif

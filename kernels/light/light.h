@@ -35,7 +35,7 @@ INLINE real3 light_emitted(PRIVATE const SceneData* scene, PRIVATE const Surface
 /// would be picked some percent more or less often than prob_pick says.
 INLINE uint light_pick(PRIVATE const SceneData* scene, uint slot_word, uint keep_word) {
   uint slot = high_word(slot_word, scene->info.light_count);
-  real keep = (real)keep_word * REAL(2.3283064365386963e-10); /* 2^-32 */
+  real keep = (real)keep_word * WORD_STEP;
   return keep < (real)scene->lights[slot].value.w ? slot : scene->lights[slot].alias;
 }
 
