@@ -1,10 +1,11 @@
 # Render tests: closed forms, equality of methods, exact invariances, goldens. Included by
 # tests/CMakeLists.txt; PELLUCID_TIER=full narrows the verdicts from +-1.5 % to +-0.5 %.
 set(render_dir ${CMAKE_SOURCE_DIR}/tests/render)
-set(render_sources ${CMAKE_SOURCE_DIR}/tests/support/statistics.cpp)
+set(render_sources ${CMAKE_SOURCE_DIR}/tests/support/statistics.cpp
+    ${CMAKE_SOURCE_DIR}/tests/support/facets.cpp)
 foreach(name render_harness closed_form_cases closed_form_test equality equality_test
-             depth_cut_test error_test exact_test footprint_test passes_test rigid_test texture_test
-             golden_test filter_test aov_test layers_test
+             depth_cut_test error_test exact_test footprint_test furnace_merge_test
+             passes_test rigid_test texture_test golden_test filter_test aov_test layers_test
              light_test merging_test photons_test replay_test study_test vertices_test)
   list(APPEND render_sources ${render_dir}/${name}.cpp)
 endforeach()
