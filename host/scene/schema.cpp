@@ -69,7 +69,7 @@ std::vector<ObjectSpec> scene_specs() {
            {"version", T::integer, required, {1, 1}, "version of the format"},
            {"description", T::text, optional, any, "why the scene is here"},
            {"closed", T::boolean, "false", any,
-            "promises that no ray can leave it: those that do are counted, as errors"},
+            "promises that no ray can leave it: those that do are counted, and warned of"},
            {"camera", T::object, required, any, "pinhole camera", {}, "camera"},
            {"film", T::object, "{}", any, "size and filter of the picture", {}, "film"},
            {"integrator",

@@ -42,15 +42,16 @@ class Soak {
   const Lab& lab_;
   const Integrator& method_;
   Kinds traced_;
-  std::uint64_t errors_ = 0, odd_ = 0;
+  std::uint64_t errors_ = 0, odd_ = 0, left_ = 0;
   std::string what_;
 };
 
 void Soak::render(const Scene& scene, int side, std::uint64_t spp) {
   if (lab_.progress) lab_.progress(method_.name + " on " + scene.name);
   try {
-    const Picture picture = Renderer(lab_, scene, {method_.name, side, side})
-                                .render({spp, 3, long_enough, MIS_BALANCE});
+    Renderer renderer(lab_, scene, {method_.name, side, side});
+    const Picture picture = renderer.render({spp, 3, long_enough, MIS_BALANCE});
+    left_ += renderer.take_escapes();
     const std::uint64_t samples = picture.film.passes.count() * picture.pixels.size();
     traced_.camera += samples * kinds_of(method_).camera;
     traced_.light += samples * kinds_of(method_).light;
@@ -69,6 +70,8 @@ void Soak::report(Findings& findings) const {
                   method_.name, traced_.camera, traced_.light, what_),
       errors_);
   findings.none("pixels that are no radiance, " + method_.name, odd_);
+  findings.at_most("walks that leave closed rooms, per 1e6 paths, " + method_.name,
+                   double(left_) * 1e6 / double(traced_.camera + traced_.light), 2);
 }
 
 }  // namespace

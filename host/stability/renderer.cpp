@@ -135,9 +135,8 @@ Renderer::Renderer(const Lab& lab, const Scene& scene, const Build& build)
 void Renderer::check_counters() {
   std::vector<Counter> counters = make_counters();
   plan_.collect(counters, cuts_);
-  if (build_.count_escapes)
-    for (Counter& c : counters)
-      if (c.name == "escaped") escapes_ += std::exchange(c.count, 0);
+  for (const Counter& c : counters)
+    if (c.name == "escaped") escapes_ += c.count;
   require_no_errors(build_.method, counters);
 }
 

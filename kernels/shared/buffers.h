@@ -81,7 +81,7 @@
   X(negative, 1, "samples dropped because they were negative")                               \
   X(stack_overflow, 1, "BVH subtrees skipped because the traversal stack was full")          \
   X(path_stuck, 1, "paths ended by the hard limit on path length")                           \
-  X(escaped, 1, "rays that left the scene, which says that it is closed")                    \
+  X(escaped, 0, "rays that left the scene, which says that it is closed")                    \
   X(weight_outside, 1, "MIS weights below 0, above 1 or NaN")                                \
   X(film_saturated, 1, "samples cut because they exceed the film's range")                   \
   X(splat_outside, 1, "splats dropped because their pixel is outside the film")              \

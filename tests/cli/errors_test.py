@@ -191,12 +191,13 @@ def test_closed_scenes():
     wall = {"type": "sphere", "material": "grey", "center": [0, 0, 0], "radius": 10}
     closed = {**ROOM, "closed": True, "shapes": [*ROOM["shapes"], wall],
               "lights": [{"type": "point", "position": [0, 3, 0], "intensity": 1}]}
-    for shapes, code, text in ((closed["shapes"], 0, ""), (ROOM["shapes"], 6, " escaped (")):
-        write_text("closed.json", json.dumps({**closed, "shapes": shapes}))
+    for shapes, says, leaves in ((closed["shapes"], True, False), (ROOM["shapes"], True, True),
+                                 (ROOM["shapes"], False, False)):
+        write_text("closed.json", json.dumps({**closed, "closed": says, "shapes": shapes}))
         for method in ("path", "light"):
-            expect(code, ["closed.json", *QUICK[1:], "-i", method, "--strict"], text)
-    write_text("open.json", json.dumps({**closed, "closed": False, "shapes": ROOM["shapes"]}))
-    expect(0, ["open.json", *QUICK[1:], "--strict"])
+            _, err = expect(0, ["closed.json", *QUICK[1:], "-i", method, "--strict", "--stats", "closed-stats.json"])
+            counted = read_json("closed-stats.json")["counters"]["escaped"]
+            check((counted > 0) == leaves and ("escaped" in err) == leaves, "rays that leave", counted, err)
 
 
 def test_strict_warnings():

@@ -17,7 +17,8 @@ double relative(double a, double b) {
 
 TEST(TwinBsdf, DensityOfSampleIsDensityEvaluated) {
   unsigned seed = 1;
-  double worst = 0;
+  double worst = 0;  // where rounding of directions alone accounts for less than 1e-5
+  long judged = 0, all = 0;
   for (const BsdfCase& c : density_cases()) {
     for (int importance : {0, 1}) {
       Random random(++seed);
@@ -29,13 +30,13 @@ TEST(TwinBsdf, DensityOfSampleIsDensityEvaluated) {
         const double error = relative(double(e.pdf_w), double(s.pdf_w));
         // 1e-4 is what MIS is asked for; in float the direction itself is only known to a few
         // roundoffs, which the lobe amplifies by its slope. Double has no such excuse.
-        const double tolerance = is_float ? 1e-4 + half_vector_error(c, to_dvec3(s.wi)) : 1e-6;
+        const double directions = is_float ? half_vector_error(c, to_dvec3(s.wi)) : 0;
+        const double tolerance = is_float ? 1e-4 + directions : 1e-6;
         // Next to the horizon the slope of masking adds to it: cosines have absolute errors.
         const double grazing = is_float ? 1e-6 / std::abs(double(s.wi.z)) : 0;
-        if (error > tolerance + grazing)
-          ++beyond;
-        else
-          worst = std::max(worst, error);
+        beyond += error > tolerance + grazing;
+        ++all;
+        if (directions + grazing < 1e-5) worst = std::max(worst, error), ++judged;
         const double weight = double(e.f.x) * std::abs(double(s.wi.z)) / double(e.pdf_w);
         if (e.pdf_w > 0 && relative(weight, double(s.weight.x)) > tolerance + grazing) ++beyond;
       }
@@ -45,7 +46,8 @@ TEST(TwinBsdf, DensityOfSampleIsDensityEvaluated) {
       EXPECT_LE(beyond, matched ? 10 : 0) << c.name << " importance " << importance;
     }
   }
-  std::printf("density of sample against evaluation: worst accepted %.2e\n", worst);
+  std::printf("density of sample against evaluation: off by at most %.2e in %ld of %ld samples\n",
+              worst, judged, all);
 }
 
 /// Opaque lobes and reflection: f(a, b) = f(b, a). Refraction [Veach97 5.2]: radiance
