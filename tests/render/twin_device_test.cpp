@@ -3,6 +3,7 @@
 // the one in double, paths that choose otherwise are counted by what they choose.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -16,17 +17,30 @@ namespace pellucid::test {
 namespace {
 
 constexpr int side = 128;
-constexpr uint passes = 6;  // about 1e5 paths
+constexpr uint passes_in_ci = 12;  // 2e5 paths
 constexpr int twin_lanes = 8;
 
-/// What is compared of one scene.
+/// A scene, and how many of a million paths may part from the double twin.
+struct Case {
+  const char* scene;
+  double parted;  ///< but for those which meet a triangle again that they leave
+  double rehits;
+};
+
+uint passes_for_tier() {
+  return uint(passes_in_ci * tier_effort());
+}
+
+/// What is compared of one scene; sums of radiance over all channels.
 struct Tally {
   int paths = 0, other_bits = 0;
-  int parted[partings] = {};        ///< by Parting
-  double sum = 0, difference = 0, spread = 0;  ///< of paths that stay together: in double, signed,
-                                               ///< absolute
+  int parted[partings] = {};           ///< by Parting
+  double all = 0, all_difference = 0;  ///< of all paths: in double, and the float twin's off it
+  double sum = 0, difference = 0;      ///< the same of paths that stay together
+  double spread = 0;                   ///< their absolute differences
   double per_million(int n) const { return 1e6 * n / paths; }
-  int all_parted() const { return paths - parted[int(Parting::none)]; }
+  double together() const { return per_million(parted[int(Parting::none)]); }
+  double rehits() const { return per_million(parted[int(Parting::rehit)]); }
 };
 
 /// Samples of a pass as the device has them: radiance and number of rays.
@@ -59,15 +73,16 @@ void compare_path(const F4& device, const PathLog& single, const PathLog& exact,
   tally.other_bits += !same_bits(device, single);
   const Parting why = parting_of(single, exact);
   ++tally.parted[int(why)];
-  if (why != Parting::none) return;
   for (std::size_t c = 0; c < 3; ++c) {
-    tally.sum += exact.radiance[c];
-    tally.difference += single.radiance[c] - exact.radiance[c];
-    tally.spread += std::abs(single.radiance[c] - exact.radiance[c]);
+    const double difference = single.radiance[c] - exact.radiance[c];
+    tally.all += exact.radiance[c], tally.all_difference += difference;
+    if (why != Parting::none) continue;
+    tally.sum += exact.radiance[c], tally.difference += difference;
+    tally.spread += std::abs(difference);
   }
 }
 
-Tally compare(const std::string& name) {
+Tally compare(const char* name) {
   Scene scene = scene_named(name);
   scene.settings.width = scene.settings.height = side;
   scene.settings.filter = PixelFilter::box;
@@ -82,6 +97,7 @@ Tally compare(const std::string& name) {
   launch.seed = 20260801;
   launch.mis = MIS_BALANCE;
   Tally tally;
+  const uint passes = passes_for_tier();
   for (launch.iteration = 0; launch.iteration < passes; ++launch.iteration) {
     const std::vector<F4> samples = device.of_pass(launch);
     for (uint y = 0; y < uint(side); ++y)
@@ -92,24 +108,47 @@ Tally compare(const std::string& name) {
   return tally;
 }
 
-void print(const std::string& name, const Tally& t) {
-  std::printf("%s: %d of %d samples differ from the float twin\n", name.c_str(), t.other_bits, t.paths);
-  std::printf("  %.0f of a million paths part from the double twin:", t.per_million(t.all_parted()));
+void tell(const char* scene, const Tally& t) {
+  std::printf("%s: %d of %d samples differ from the float twin\n", scene, t.other_bits, t.paths);
+  std::printf("  of a million paths %.0f part from the double twin:", 1e6 - t.together());
   for (int i = 1; i < partings; ++i)
     std::printf(" %s %.0f", parting_name(Parting(i)), t.per_million(t.parted[i]));
-  std::printf("\n  the others: mean off by %.1e, samples by %.1e of it\n", t.difference / t.sum,
-              t.spread / t.sum);
+  std::printf("\n  the others: mean off by %.1e, samples by %.1e of it; all: mean off by %.1e\n",
+              t.difference / t.sum, t.spread / t.sum, t.all_difference / t.all);
+  for (int i = 1; i < partings; ++i)
+    ::testing::Test::RecordProperty(parting_name(Parting(i)), t.parted[i]);
 }
 
-class TwinDevice : public ::testing::TestWithParam<const char*> {};
+class TwinDevice : public ::testing::TestWithParam<Case> {};
 
-TEST_P(TwinDevice, path) {
-  const Tally t = compare(GetParam());
-  print(GetParam(), t);
+TEST_P(TwinDevice, same_bits_in_float_same_choices_in_double) {
+  const Tally t = compare(GetParam().scene);
+  tell(GetParam().scene, t);
+  EXPECT_EQ(t.paths, int(passes_for_tier()) * side * side);
   EXPECT_EQ(t.other_bits, 0);
+  EXPECT_LE(t.rehits(), GetParam().rehits);
+  EXPECT_LE(1e6 - t.together() - t.rehits(), GetParam().parted);
+  // Some tens of roundings, which grow with every bounce off something round or rough.
+  EXPECT_LT(std::abs(t.difference / t.sum), 1e-5);
+  EXPECT_LT(t.spread / t.sum, 1e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, TwinDevice, ::testing::Values("cornell-box", "everything", "gallery", "materials", "glass-lamp", "mixed-room"));
+// Twice of what was measured, and 100 at least. Between flat walls (cornell-box) a path parts where
+// it passes an edge within some 1e-6 of the room's width: some in a million. Every round and
+// smooth surface makes roundings ten times as large or so, of a lump of glass those of its facets:
+// after some bounces between them (gallery, glass-lamp) nothing of the direction is left. The
+// cove in `materials` and `gallery` is of triangles 178 times as long as wide, about which the
+// intersector is further off than rays start: that is a fault (numerics 1), and 0 its end.
+INSTANTIATE_TEST_SUITE_P(Scenes, TwinDevice,
+                         ::testing::Values(Case{"cornell-box", 100, 0}, Case{"everything", 100, 0},
+                                           Case{"materials", 250, 20000},
+                                           Case{"gallery", 6000, 12000},
+                                           Case{"glass-lamp", 8000, 0}),
+                         [](const auto& scene) {
+                           std::string name = scene.param.scene;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace pellucid::test

@@ -1,4 +1,4 @@
-// Compiled with PELLUCID_REAL=float only.
+// Compiled with PELLUCID_REAL=float only; and what two logs have in common.
 #include <algorithm>
 
 #include "support/path_log_twin.h"
@@ -7,9 +7,13 @@ namespace pellucid::test {
 namespace {
 
 Parting parting_at(const PathStep& a, const PathStep& b) {
+  if (a.rehit != b.rehit) return Parting::rehit;
   if (a.prim != b.prim) return Parting::surface;
   if (a.shines != b.shines) return Parting::emission;
   if (a.black != b.black) return Parting::end;
+  if (a.light == b.light && a.sample != b.sample &&
+      (a.sample == LightFate::rehit || b.sample == LightFate::rehit))
+    return Parting::rehit;
   if (a.light != b.light || a.sample != b.sample) return Parting::light;
   if (a.survives != b.survives) return Parting::roulette;
   if (a.lobe != b.lobe) return Parting::lobe;
@@ -24,8 +28,8 @@ PathLog path_log_float(const PackedScene& packed, const Launch& launch, uint x, 
 }
 
 const char* parting_name(Parting why) {
-  constexpr const char* names[partings] = {"none",     "surface", "emission", "light",
-                                           "roulette", "lobe",    "end",      "side"};
+  constexpr const char* names[partings] = {"none",     "rehit", "surface", "emission", "light",
+                                           "roulette", "lobe",  "end",     "side"};
   return names[int(why)];
 }
 

@@ -7,6 +7,7 @@
 
 namespace TWIN_NAMESPACE {
 
+using pellucid::test::LightFate;
 using pellucid::test::PathLog;
 using pellucid::test::PathStep;
 
@@ -31,6 +32,20 @@ inline uint lobe_chosen(const SceneData& scene, const Vertex& v, Random4 u) {
   return 2u * i + (same_direction(chosen, first) ? 0u : 1u);
 }
 
+/// Where the ray to the light sample of `words` ends up, which walk_nee asks for any hit alone.
+inline uint blocker_of(const SceneData& scene, const Vertex& v, U4 words) {
+  const Surface& s = v.surface;
+  const LightSample light = light_sample(&scene, s.p, words);
+  Ray ray = make_ray(spawn_origin(s.p, s.ng, s.offset, light.wi), light.wi, REAL_MAX);
+  if (!light.at_infinity && !shadow_ray(&s, light.wi, light.target, &ray)) return NONE;
+  ray.aim = light.aim;
+  return bvh_trace(&scene, ray, 0).prim;
+}
+
+inline bool is_triangle(const SceneData& scene, uint prim) {
+  return prim < scene.info.triangle_count;
+}
+
 /// The light sample of a vertex, as a part of its own so that it shows whether it brought anything.
 inline void log_light_sample(const SceneData& scene, const Launch& launch, Rng rng, uint bounce,
                              const Vertex& v, Walk& walk, PathStep& step) {
@@ -40,17 +55,23 @@ inline void log_light_sample(const SceneData& scene, const Launch& launch, Rng r
   Walk aside = walk;
   aside.radiance = REAL3(0, 0, 0);
   walk_nee(&scene, launch, rng, bounce, &v, &aside);
-  step.sample = aside.rays == walk.rays ? 0u : is_black(aside.radiance) ? 1u : 2u;
+  if (!is_black(aside.radiance)) {
+    step.sample = LightFate::seen;
+  } else if (aside.rays > walk.rays) {
+    const bool rehit = is_triangle(scene, step.prim) && blocker_of(scene, v, words) == step.prim;
+    step.sample = rehit ? LightFate::rehit : LightFate::hidden;
+  }
   walk.rays = aside.rays;
   walk.radiance += aside.radiance;
 }
 
-/// One segment; whether there is another.
-inline bool log_step(const SceneData& scene, const Launch& launch, Rng rng, uint depth, Walk& walk,
-                     PathStep& step) {
+/// One segment, which leaves the primitive `before`; whether there is another.
+inline bool log_step(const SceneData& scene, const Launch& launch, Rng rng, uint depth, uint before,
+                     Walk& walk, PathStep& step) {
   ++walk.rays;
   const Hit hit = bvh_trace(&scene, walk.ray, 0);
   step.prim = hit.prim;
+  step.rehit = hit.prim == before && is_triangle(scene, before);
   if (hit.prim == NONE) {
     walk_escaped(&scene, launch, depth, &walk);
     return false;
@@ -80,8 +101,11 @@ inline PathLog logged_path(const pellucid::PackedScene& packed, const Launch& la
   const FilmPosition at = film_position(nullptr, x, y, rng4(rng, DIM_PIXEL));
   Walk walk = walk_start(camera_ray(packed.camera, at.x, at.y), REAL3(1, 1, 1));
   PathLog log;
-  for (uint depth = 1; depth <= depth_limit(launch); ++depth)
-    if (!log_step(scene, launch, rng, depth, walk, log.steps.emplace_back())) break;
+  for (uint depth = 1, before = NONE; depth <= depth_limit(launch); ++depth) {
+    PathStep& step = log.steps.emplace_back();
+    if (!log_step(scene, launch, rng, depth, before, walk, step)) break;
+    before = step.prim;
+  }
   log.radiance = {double(walk.radiance.x), double(walk.radiance.y), double(walk.radiance.z)};
   log.rays = walk.rays;
   return log;
