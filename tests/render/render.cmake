@@ -16,7 +16,7 @@ target_include_directories(render_tests PRIVATE ${render_dir})
 pellucid_script_test(threads render ${render_dir}/threads_test.py $<TARGET_FILE:pellucid>)
 
 add_test(NAME slow.render_full
-         COMMAND render_tests --gtest_filter=*ClosedForm*:*Equality*:*Rigid*:*Golden*)
+         COMMAND render_tests --gtest_filter=*ClosedForm*:*Equality*:*Rigid*:*Golden*:*TwinDevice*)
 # How often --error keeps its word: 200 renders of each method and scene; prints its figures.
 add_test(NAME slow.error_coverage COMMAND render_tests --gtest_filter=ErrorCoverage.*)
 set_tests_properties(slow.render_full slow.error_coverage PROPERTIES LABELS slow TIMEOUT 3600

@@ -38,9 +38,11 @@ struct Tally {
   double all = 0, all_difference = 0;  ///< of all paths: in double, and the float twin's off it
   double sum = 0, difference = 0;      ///< the same of paths that stay together
   double spread = 0;                   ///< their absolute differences
+  double off = 0, off_squared = 0;     ///< what the parted (no rehits) bring more in float
   double per_million(int n) const { return 1e6 * n / paths; }
   double together() const { return per_million(parted[int(Parting::none)]); }
   double rehits() const { return per_million(parted[int(Parting::rehit)]); }
+  double sigmas() const { return off_squared > 0 ? std::abs(off) / std::sqrt(off_squared) : 0; }
 };
 
 /// Samples of a pass as the device has them: radiance and number of rays.
@@ -73,12 +75,17 @@ void compare_path(const F4& device, const PathLog& single, const PathLog& exact,
   tally.other_bits += !same_bits(device, single);
   const Parting why = parting_of(single, exact);
   ++tally.parted[int(why)];
+  double difference = 0, spread = 0, sum = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const double difference = single.radiance[c] - exact.radiance[c];
-    tally.all += exact.radiance[c], tally.all_difference += difference;
-    if (why != Parting::none) continue;
-    tally.sum += exact.radiance[c], tally.difference += difference;
-    tally.spread += std::abs(difference);
+    sum += exact.radiance[c];
+    difference += single.radiance[c] - exact.radiance[c];
+    spread += std::abs(single.radiance[c] - exact.radiance[c]);
+  }
+  tally.all += sum, tally.all_difference += difference;
+  if (why == Parting::none) {
+    tally.sum += sum, tally.difference += difference, tally.spread += spread;
+  } else if (why != Parting::rehit) {
+    tally.off += difference, tally.off_squared += difference * difference;
   }
 }
 
@@ -113,8 +120,10 @@ void tell(const char* scene, const Tally& t) {
   std::printf("  of a million paths %.0f part from the double twin:", 1e6 - t.together());
   for (int i = 1; i < partings; ++i)
     std::printf(" %s %.0f", parting_name(Parting(i)), t.per_million(t.parted[i]));
-  std::printf("\n  the others: mean off by %.1e, samples by %.1e of it; all: mean off by %.1e\n",
-              t.difference / t.sum, t.spread / t.sum, t.all_difference / t.all);
+  std::printf(
+      "\n  the others: mean off by %.1e, samples by %.1e of it; all: mean off by %.1e "
+      "(parted: %.1f sigma)\n",
+      t.difference / t.sum, t.spread / t.sum, t.all_difference / t.all, t.sigmas());
   for (int i = 1; i < partings; ++i)
     ::testing::Test::RecordProperty(parting_name(Parting(i)), t.parted[i]);
 }
@@ -131,19 +140,20 @@ TEST_P(TwinDevice, same_bits_in_float_same_choices_in_double) {
   // Some tens of roundings, which grow with every bounce off something round or rough.
   EXPECT_LT(std::abs(t.difference / t.sum), 1e-5);
   EXPECT_LT(t.spread / t.sum, 1e-4);
+  EXPECT_LT(t.sigmas(), 4.5) << "those that part are other samples of the same light";
 }
 
-// Twice of what was measured, and 100 at least. Between flat walls (cornell-box) a path parts where
-// it passes an edge within some 1e-6 of the room's width: some in a million. Every round and
-// smooth surface makes roundings ten times as large or so, of a lump of glass those of its facets:
-// after some bounces between them (gallery, glass-lamp) nothing of the direction is left. The
-// cove in `materials` and `gallery` is of triangles 178 times as long as wide, about which the
-// intersector is further off than rays start: that is a fault (numerics 1), and 0 its end.
+// Twice what was measured, and 100 at least. Between flat walls (cornell-box) a path parts where it
+// passes an edge within some 1e-6 of the room's width: 5 in a million. Round and polished surfaces
+// enlarge roundings with every bounce: within lumps of glass (gallery, glass-lamp) nothing of the
+// direction is left after ten. The cove in `materials` and `gallery` is of triangles 178 times as
+// long as wide, of which the intersector's distances are off by more than rays start beside them:
+// a fault (numerics 1), here only kept from growing.
 INSTANTIATE_TEST_SUITE_P(Scenes, TwinDevice,
                          ::testing::Values(Case{"cornell-box", 100, 0}, Case{"everything", 100, 0},
                                            Case{"materials", 250, 20000},
                                            Case{"gallery", 6000, 12000},
-                                           Case{"glass-lamp", 8000, 0}),
+                                           Case{"glass-lamp", 8000, 20}),
                          [](const auto& scene) {
                            std::string name = scene.param.scene;
                            std::replace(name.begin(), name.end(), '-', '_');
