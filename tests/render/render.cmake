@@ -6,7 +6,8 @@ set(render_sources ${CMAKE_SOURCE_DIR}/tests/support/statistics.cpp
 foreach(name render_harness closed_form_cases closed_form_test equality equality_test
              depth_cut_test error_test exact_test footprint_test furnace_merge_test
              passes_test rigid_test texture_test golden_test filter_test aov_test layers_test
-             light_test merging_test photons_test replay_test study_test vertices_test)
+             light_test merging_test photons_test replay_test study_test twin_device_test
+             vertices_test)
   list(APPEND render_sources ${render_dir}/${name}.cpp)
 endforeach()
 pellucid_gtest(render_tests render
@@ -17,7 +18,7 @@ target_include_directories(render_tests PRIVATE ${render_dir})
 pellucid_script_test(threads render ${render_dir}/threads_test.py $<TARGET_FILE:pellucid>)
 
 add_test(NAME slow.render_full
-         COMMAND render_tests --gtest_filter=*ClosedForm*:*Equality*:*Rigid*:*Golden*)
+         COMMAND render_tests --gtest_filter=*ClosedForm*:*Equality*:*Rigid*:*Golden*:*TwinDevice*)
 # How often --error keeps its word: 200 renders of each method and scene; prints its figures.
 add_test(NAME slow.error_coverage COMMAND render_tests --gtest_filter=ErrorCoverage.*)
 set_tests_properties(slow.render_full slow.error_coverage PROPERTIES LABELS slow TIMEOUT 3600

@@ -11,13 +11,17 @@ add_library(pellucid_test_support STATIC
   ${support_dir}/audit_scenes.cpp
   ${support_dir}/bsdf_cases.cpp
   ${support_dir}/double_twin.cpp
+  ${support_dir}/path_log_double.cpp
+  ${support_dir}/path_log_float.cpp
   ${support_dir}/statistics.cpp)
 target_include_directories(pellucid_test_support PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(pellucid_test_support
   PUBLIC pellucid_stability pellucid_pack pellucid_scene pellucid_bvh PRIVATE pellucid_options)
 target_compile_options(pellucid_test_support PRIVATE ${twin_flags})
-set_source_files_properties(${support_dir}/double_twin.cpp
+set_source_files_properties(${support_dir}/double_twin.cpp ${support_dir}/path_log_double.cpp
   PROPERTIES COMPILE_DEFINITIONS PELLUCID_REAL=double)
+set_source_files_properties(${support_dir}/path_log_float.cpp
+  PROPERTIES COMPILE_DEFINITIONS "PELLUCID_REAL=float;PELLUCID_REAL_IS_FLOAT=1")
 
 function(pellucid_twin_executable name prefix)
   add_executable(${name} ${ARGN})
