@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ostream>
 
 #include "integrators/registry.h"
 #include "render/plan.h"
@@ -26,6 +27,9 @@ struct Case {
   double parted;  ///< but for those which meet a triangle again that they leave
   double rehits;
 };
+void PrintTo(const Case& c, std::ostream* out) {  // in the test's name
+  *out << c.scene;
+}
 
 uint passes_for_tier() {
   return uint(passes_in_ci * tier_effort());
