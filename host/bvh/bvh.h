@@ -37,7 +37,7 @@ struct BinaryTree {
 };
 
 /// How many primitives of a class fit into one leaf.
-constexpr int max_classes = 2;
+constexpr int max_classes = 3;
 using LeafCapacity = std::array<std::uint32_t, max_classes>;
 
 /// Builds by binned SAH [Wald07]. `classes` (one per box, < max_classes) may be empty: all class 0.

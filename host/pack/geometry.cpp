@@ -1,5 +1,6 @@
 // Shapes to triangles and quadrics, and the BVH over them as flat arrays.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -10,7 +11,11 @@
 namespace pellucid {
 namespace {
 
-constexpr std::uint8_t class_triangle = 0, class_quadric = 1;
+constexpr std::uint8_t class_triangle = 0, class_needle = 1, class_quadric = 2;
+
+/// Longest edge over the height above it from which on a triangle is a needle: up to here rays
+/// start far enough off for what is lost of distances (EXTENT_ERROR_ULPS).
+constexpr double needle_aspect = 5;
 
 uint emission_flags(const Shape& shape) {
   if (!shape.emission) return 0;
@@ -123,11 +128,35 @@ void set_bounds(const std::vector<bvh::Box>& boxes, SceneInfo& info) {
   info.center_radius = to_f4(center, glm::length(glm::dvec3(all.high) - center));
 }
 
+using Corners = std::array<glm::dvec3, 3>;
+
+Corners corners_of(const Triangle& t, const PackedScene& scene) {
+  const auto at = [&](uint v) {
+    return glm::dvec3(scene.positions[v].x, scene.positions[v].y, scene.positions[v].z);
+  };
+  return {at(t.v0), at(t.v1), at(t.v2)};
+}
+
+/// By class: which leaf a primitive goes to must not depend on its neighbours, as its hits do not.
+std::vector<std::uint8_t> classes_of(const PackedScene& scene) {
+  std::vector<std::uint8_t> classes;
+  for (const Triangle& t : scene.triangles) {
+    const Corners c = corners_of(t, scene);
+    const glm::dvec3 a = c[1] - c[0], b = c[2] - c[0], d = c[2] - c[1];
+    const double edge2 = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(d, d)});
+    const glm::dvec3 n = glm::cross(a, b);  // edge^2 over its length is the aspect
+    const bool needle = edge2 * edge2 > needle_aspect * needle_aspect * glm::dot(n, n);
+    classes.push_back(needle ? class_needle : class_triangle);
+  }
+  classes.resize(classes.size() + scene.quadrics.size(), class_quadric);
+  return classes;
+}
+
 /// Flattens wide nodes and leaves into the arrays of PackedScene.
 class Flattener {
  public:
-  Flattener(const bvh::WideTree& tree, PackedScene& out)
-      : tree_(tree), out_(out), width_(size_t(out.simd_width)) {}
+  Flattener(const bvh::WideTree& tree, const std::vector<std::uint8_t>& classes, PackedScene& out)
+      : tree_(tree), classes_(classes), out_(out), width_(size_t(out.simd_width)) {}
 
   void run() {
     out_.nodes.assign(tree_.nodes.size() * 7 * width_, 0.0f);
@@ -155,12 +184,13 @@ class Flattener {
   uint reference(const bvh::WideChild& child) {
     if (child.count == 0) return child.node;
     const uint first_prim = tree_.order[child.first];
-    if (first_prim >= out_.triangles.size())
+    if (classes_[first_prim] == class_quadric)
       return REF_LEAF | (LEAF_QUADRICS << REF_KIND_SHIFT) |
              (first_prim - static_cast<uint>(out_.triangles.size()));
     const auto block = static_cast<uint>(out_.leaf_prims.size() / width_);
     add_block(child);
-    return REF_LEAF | (LEAF_TRIANGLES << REF_KIND_SHIFT) | block;
+    const uint kind = classes_[first_prim] == class_needle ? LEAF_NEEDLES : LEAF_TRIANGLES;
+    return REF_LEAF | (kind << REF_KIND_SHIFT) | block;
   }
 
   /// A block in lanes; unused lanes repeat the last triangle (a zero triangle would give 0 * inf).
@@ -184,10 +214,8 @@ class Flattener {
   }
 
   bool has_area(const Triangle& t) const {
-    const auto at = [&](uint v) {
-      return glm::dvec3(out_.positions[v].x, out_.positions[v].y, out_.positions[v].z);
-    };
-    return glm::cross(at(t.v1) - at(t.v0), at(t.v2) - at(t.v0)) != glm::dvec3(0.0);
+    const Corners c = corners_of(t, out_);
+    return glm::cross(c[1] - c[0], c[2] - c[0]) != glm::dvec3(0.0);
   }
 
   /// Finite stand-in for infinity that survives (bound - origin) / direction without overflow to
@@ -195,6 +223,7 @@ class Flattener {
   static constexpr float FLT_MAX_HALF = 1.7e38f;
 
   const bvh::WideTree& tree_;
+  const std::vector<std::uint8_t>& classes_;
   PackedScene& out_;
   size_t width_;
 };
@@ -230,12 +259,11 @@ void pack_shapes(const Scene& scene, PackedScene& out) {
 void pack_bvh(PackedScene& out) {
   const Timer timer;
   const std::vector<bvh::Box> boxes = boxes_of(out);
-  std::vector<std::uint8_t> classes(boxes.size(), class_triangle);
-  std::fill(classes.begin() + static_cast<std::ptrdiff_t>(out.triangles.size()), classes.end(),
-            class_quadric);
-  const bvh::LeafCapacity capacity{static_cast<std::uint32_t>(out.simd_width), 1};
+  const std::vector<std::uint8_t> classes = classes_of(out);
+  const auto lanes = static_cast<std::uint32_t>(out.simd_width);
+  const bvh::LeafCapacity capacity{lanes, lanes, 1};
   const bvh::WideTree tree = bvh::collapse(bvh::build(boxes, classes, capacity), out.simd_width);
-  Flattener(tree, out).run();
+  Flattener(tree, classes, out).run();
   out.info.root = tree.nodes.empty() ? REF_EMPTY : 0u;
   out.bvh = bvh::statistics(tree);
   out.stack_bound = out.bvh.stack;

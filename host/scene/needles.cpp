@@ -8,7 +8,7 @@
 namespace pellucid {
 namespace {
 
-/// Up to 1:1e4 none of 1e6 rays is lost, at 1:1e5 some tens are where they start between needles
+/// Up to 1:1e5 no ray is lost, at 1:1e6 1 in 1e4 where they start between needles
 /// (stability case degenerate).
 constexpr double longest = 3e4;
 

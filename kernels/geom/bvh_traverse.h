@@ -34,11 +34,12 @@ INLINE void leaf_test(PRIVATE const SceneData* scene, uint ref, RayShear shear, 
   }
 #endif
 #if FEAT_TRIANGLES
+  int needles = ((ref >> REF_KIND_SHIFT) & REF_KIND_MASK) == LEAF_NEEDLES;
   uint first = ref & REF_INDEX_MASK;
   uint last = first + ((ref >> REF_COUNT_SHIFT) & REF_COUNT_MASK);
   for (uint i = first; i <= last; ++i)
     triangle_block(scene->leaves + (size_t)i * BLOCK_STRIDE, scene->leaf_prims + i * SIMD_WIDTH,
-                   shear, hit);
+                   shear, needles, hit);
 #endif
 }
 

@@ -33,16 +33,22 @@ INLINE RayShear ray_shear(Ray ray) {
   return s;
 }
 
-/// a b - c d, rounded; where the rounded products are equal, the difference of their rounding
-/// errors, which is then the exact value (two fma, no fp64 needed).
-INLINE vreal edge_exact(vreal a, vreal b, vreal c, vreal d) {
+/// a b - c d, rounded; where the rounded products are equal, and for needles wherever, with the
+/// difference of their rounding errors, which in the first case is the exact value (two fma, no
+/// fp64 needed).
+INLINE vreal edge_exact(vreal a, vreal b, vreal c, vreal d, int needles) {
   vreal ab = a * b, cd = c * d;
-  return v_if_zero(ab - cd, v_fma(a, b, -ab) - v_fma(c, d, -cd));
+  vreal rounded = ab - cd, rest = v_fma(a, b, -ab) - v_fma(c, d, -cd);
+  return needles ? rounded + rest : v_if_zero(rounded, rest);
 }
 
 /// Tests the block at `v` ([3 vertices][3 axes][SIMD_WIDTH] floats) and improves `hit` (t, weights,
 /// prim). Equal distances go to the lowest primitive id, so the order of visits does not matter.
-INLINE void triangle_block(GLOBAL const float* v, GLOBAL const uint* prims, RayShear s,
+///
+/// Edge functions are off by roundoffs of a triangle's length squared, weights by those over its
+/// area, and so distances by its length times that over its width: of `needles` far more than rays
+/// start beside them. They get edge functions without that error; what is left is that of vertices.
+INLINE void triangle_block(GLOBAL const float* v, GLOBAL const uint* prims, RayShear s, int needles,
                            PRIVATE Hit* hit) {
   GLOBAL const float* vx = v + s.kx * SIMD_WIDTH;
   GLOBAL const float* vy = v + s.ky * SIMD_WIDTH;
@@ -66,10 +72,11 @@ INLINE void triangle_block(GLOBAL const float* v, GLOBAL const uint* prims, RayS
   vreal least = v_min(e0, v_min(e1, e2)), most = v_max(e0, v_max(e1, e2));
   uint inside = v_mask_le(zero, least) | v_mask_le(most, zero);
   if (inside == 0u) return;
-  if (inside != (v_mask_lt(zero, least) | v_mask_lt(most, zero))) {  // a zero among them
-    e0 = edge_exact(cx, by, cy, bx);
-    e1 = edge_exact(ax, cy, ay, cx);
-    e2 = edge_exact(bx, ay, by, ax);
+  // Or a zero among them.
+  if (needles || inside != (v_mask_lt(zero, least) | v_mask_lt(most, zero))) {
+    e0 = edge_exact(cx, by, cy, bx, needles);
+    e1 = edge_exact(ax, cy, ay, cx, needles);
+    e2 = edge_exact(bx, ay, by, ax, needles);
     inside &= v_mask_le(zero, v_min(e0, v_min(e1, e2))) | v_mask_le(v_max(e0, v_max(e1, e2)), zero);
   }
   vreal det = e0 + e1 + e2;

@@ -63,6 +63,7 @@ LAYOUT_CHECK(Shape, 16);
 #define REF_EMPTY 0xffffffffu  // slot without a child: its box is inverted, so it is never entered
 #define LEAF_TRIANGLES 0u      // blocks of LEAF_WIDTH triangles from `index`
 #define LEAF_QUADRICS 1u       // the quadric `index`
+#define LEAF_NEEDLES 2u        // as LEAF_TRIANGLES, each several times as long as wide
 
 // ---- materials and lights
 // -------------------------------------------------------------------------

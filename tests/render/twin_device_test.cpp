@@ -152,12 +152,11 @@ TEST_P(TwinDevice, same_bits_in_float_same_choices_in_double) {
 // enlarge roundings with every bounce: within lumps of glass (gallery, glass-lamp) nothing of the
 // direction is left after ten. The cove in `materials` and `gallery` is of triangles 178 times as
 // long as wide, of which the intersector's distances are off by more than rays start beside them:
-// a fault (numerics 1), here only kept from growing.
+// without leaves of their own (LEAF_NEEDLES) 1 % of paths met the triangle that they left.
 INSTANTIATE_TEST_SUITE_P(Scenes, TwinDevice,
                          ::testing::Values(Case{"cornell-box", 100, 0}, Case{"everything", 100, 0},
-                                           Case{"materials", 250, 20000},
-                                           Case{"gallery", 6000, 12000},
-                                           Case{"glass-lamp", 8000, 20}),
+                                           Case{"materials", 250, 0}, Case{"gallery", 6000, 0},
+                                           Case{"glass-lamp", 8000, 0}),
                          [](const auto& scene) {
                            std::string name = scene.param.scene;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -83,7 +83,7 @@ TEST(BvhBuild, ValidForEveryInputWidthAndLeafSize) {
   for (const Input& input : inputs())
     for (int width : {2, 4, 8, 16}) {
       SCOPED_TRACE(input.name + " width " + std::to_string(width));
-      const LeafCapacity capacity{std::uint32_t(width), 1};
+      const LeafCapacity capacity{std::uint32_t(width), 1, 1};
       const WideTree tree = collapse(build(input.boxes, input.classes, capacity), width);
       ASSERT_NO_THROW(validate(tree, input.boxes, input.classes, capacity));
       EXPECT_EQ(stack_bound(tree), tree.nodes.empty() ? 0u : worst_stack(tree, 0, 0));
@@ -93,7 +93,7 @@ TEST(BvhBuild, ValidForEveryInputWidthAndLeafSize) {
 
 TEST(BvhBuild, DepthOfHostileInputsIsBounded) {
   for (const Input& input : inputs()) {
-    const WideTree tree = collapse(build(input.boxes, input.classes, {8, 1}), 8);
+    const WideTree tree = collapse(build(input.boxes, input.classes, {8, 1, 1}), 8);
     const Statistics s = statistics(tree);
     EXPECT_LE(s.depth, 64u + 18u) << input.name;  // SAH depth + log2 of the rest
     // The kernels' stack is compiled for the scene; more than this would not fit private memory.
@@ -103,7 +103,7 @@ TEST(BvhBuild, DepthOfHostileInputsIsBounded) {
 
 TEST(BvhBuild, StatisticsAddUp) {
   const Input random = inputs()[3];
-  const WideTree tree = collapse(build(random.boxes, {}, {8, 1}), 8);
+  const WideTree tree = collapse(build(random.boxes, {}, {8, 1, 1}), 8);
   const Statistics s = statistics(tree);
   EXPECT_EQ(s.primitives, random.boxes.size());
   EXPECT_EQ(s.nodes, tree.nodes.size());
@@ -120,15 +120,15 @@ TEST(BvhBuild, SurfaceAreaHeuristicBeatsOrder) {
   const auto boxes = make(1000, [](int i) {
     return box_at({i % 2 ? 1000.0 : 0.0, i * 1e-3, 0}, 0.1);
   });
-  const BinaryTree tree = build(boxes, {}, {8, 1});
+  const BinaryTree tree = build(boxes, {}, {8, 1, 1});
   const BinaryNode &left = tree.nodes[tree.nodes[0].left], &right = tree.nodes[tree.nodes[0].right];
   EXPECT_LT(left.box.half_area() + right.box.half_area(), 0.01 * tree.nodes[0].box.half_area());
 }
 
 TEST(BvhBuild, SameInputSameTree) {
   const Input input = inputs()[3];
-  const WideTree a = collapse(build(input.boxes, {}, {8, 1}), 8);
-  const WideTree b = collapse(build(input.boxes, {}, {8, 1}), 8);
+  const WideTree a = collapse(build(input.boxes, {}, {8, 1, 1}), 8);
+  const WideTree b = collapse(build(input.boxes, {}, {8, 1, 1}), 8);
   ASSERT_EQ(a.order, b.order);
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
   for (size_t i = 0; i < a.nodes.size(); ++i)
@@ -141,18 +141,18 @@ TEST(BvhBuild, SameInputSameTree) {
 TEST(BvhBuild, RefusesWhatHasNoBox) {
   std::vector<Box> boxes(3, box_at({0, 0, 0}, 1));
   boxes[1] = Box{};
-  EXPECT_THROW(build(boxes, {}, {8, 1}), InternalError);
+  EXPECT_THROW(build(boxes, {}, {8, 1, 1}), InternalError);
   boxes[1] = box_at({0, 0, 0}, 1);
   boxes[1].low.y = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(build(boxes, {}, {8, 1}), InternalError);
-  EXPECT_THROW(build({box_at({0, 0, 0}, 1)}, {0, 0}, {8, 1}), InternalError);
+  EXPECT_THROW(build(boxes, {}, {8, 1, 1}), InternalError);
+  EXPECT_THROW(build({box_at({0, 0, 0}, 1)}, {0, 0}, {8, 1, 1}), InternalError);
 }
 
 /// The validator must be able to fail.
 class Validator : public ::testing::Test {
  protected:
-  Validator() : input(inputs()[3]), tree(collapse(build(input.boxes, {}, {8, 1}), 8)) {}
-  void expect_refused() { EXPECT_THROW(validate(tree, input.boxes, {}, {8, 1}), InternalError); }
+  Validator() : input(inputs()[3]), tree(collapse(build(input.boxes, {}, {8, 1, 1}), 8)) {}
+  void expect_refused() { EXPECT_THROW(validate(tree, input.boxes, {}, {8, 1, 1}), InternalError); }
   WideChild& some_leaf() {
     for (WideNode& node : tree.nodes)
       for (int i = 0; i < node.child_count; ++i)
@@ -184,7 +184,7 @@ TEST_F(Validator, SeesACycle) {
   expect_refused();
 }
 TEST_F(Validator, SeesALeafOverCapacity) {
-  EXPECT_THROW(validate(tree, input.boxes, {}, {1, 1}), InternalError);
+  EXPECT_THROW(validate(tree, input.boxes, {}, {1, 1, 1}), InternalError);
 }
 TEST_F(Validator, SeesAMixedLeaf) {
   std::vector<std::uint8_t> classes(input.boxes.size(), 0);

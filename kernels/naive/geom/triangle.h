@@ -29,7 +29,7 @@ INLINE vreal v_dot(vreal ax, vreal ay, vreal az, vreal bx, vreal by, vreal bz) {
 
 /// Tests the block at `v` ([3 vertices][3 axes][SIMD_WIDTH] floats) and improves `hit`; ties go to
 /// the lowest primitive id.
-INLINE void triangle_block(GLOBAL const float* v, GLOBAL const uint* prims, RayShear s,
+INLINE void triangle_block(GLOBAL const float* v, GLOBAL const uint* prims, RayShear s, int needles,
                            PRIVATE Hit* hit) {
   vreal dx = v_splat(s.d.x), dy = v_splat(s.d.y), dz = v_splat(s.d.z);
   vreal e1x = v_load(v + 3 * SIMD_WIDTH), e1y = v_load(v + 4 * SIMD_WIDTH);
