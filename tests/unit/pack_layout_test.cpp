@@ -97,6 +97,43 @@ TEST(PackLayout, EveryPrimitiveIsInExactlyOneLeafWithItsVertices) {
   }
 }
 
+/// Longest edge over the height above it.
+double aspect_of(const PackedScene& s, uint prim) {
+  const auto at = [&](uint v) {
+    return glm::dvec3(s.positions[v].x, s.positions[v].y, s.positions[v].z);
+  };
+  const Triangle& t = s.triangles[prim];
+  const glm::dvec3 a = at(t.v0), b = at(t.v1), c = at(t.v2);
+  const double edge = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+  return edge * edge / glm::length(glm::cross(b - a, c - a));
+}
+
+// Hits of a triangle must not depend on which others stand beside it: layouts differ in that.
+TEST(PackLayout, LongTrianglesHaveLeavesOfTheirOwn) {
+  Scene scene = empty_scene();
+  Mesh lump = test::lump(500);
+  for (glm::vec3& p : lump.positions) p.y *= p.x > 0 ? 6.0f : 1.0f;
+  add_shape(scene, lump);
+  for (int width : {4, 8}) {
+    const PackedScene s = pack_scene(scene, {width});
+    size_t needles = 0, others = 0;
+    for (size_t at = 0; at < s.nodes.size(); at += size_t(7 * width))
+      for (int lane = 0; lane < width; ++lane) {
+        uint ref;
+        std::memcpy(&ref, &s.nodes[at + size_t(6 * width + lane)], sizeof ref);
+        if (ref == REF_EMPTY || !(ref & REF_LEAF)) continue;
+        const bool needle = ((ref >> REF_KIND_SHIFT) & REF_KIND_MASK) == LEAF_NEEDLES;
+        for (int i = 0; i < width; ++i)
+          EXPECT_EQ(
+              aspect_of(s, s.leaf_prims[(ref & REF_INDEX_MASK) * size_t(width) + size_t(i)]) > 5,
+              needle);
+        ++(needle ? needles : others);
+      }
+    EXPECT_GT(needles, 10u);
+    EXPECT_GT(others, 10u);
+  }
+}
+
 TEST(PackLayout, PrimitiveIdsDoNotDependOnTheWidth) {
   const PackedScene a = pack_scene(mixed_scene(), {4}), b = pack_scene(mixed_scene(), {16});
   ASSERT_EQ(a.triangles.size(), b.triangles.size());
