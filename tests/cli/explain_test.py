@@ -74,7 +74,7 @@ def clamping_kernels():
     place = "clamping/transport/path.h"
     with open(place, encoding="utf-8") as file:
         text = file.read()
-    gather = "  real3 brought = found.value * found.weight;\n"
+    gather = "  real3 brought = found.value * mis_counted(scene, found.weight);\n"
     check(text.count(gather) == 1, "the place to clamp is where it was", text)
     cut = ", ".join(f"r_min(found.value.{axis} * found.weight, REAL(10.0))" for axis in "xyz")
     write_text(place, text.replace(gather, f"  found.value = REAL3({cut});\n  found.weight = REAL(1.0);\n" + gather))
