@@ -84,6 +84,7 @@ void nothing_is_dropped(const Lab& lab, Findings& findings) {
   if (lab.effort > 1) names.insert(names.end(), {"glass-lamp", "keyhole", "four-balls-sun"});
   std::vector<Scene> scenes;
   for (const char* name : names) scenes.push_back(lab.open_scene(name));
+  for (Scene& scene : scenes) scene.closed = scene.name == "keyhole";  // the only room among them
   std::uint64_t paths_of_sample = 0;
   for (const Integrator& method : integrators())
     paths_of_sample += (kinds_of(method).camera + kinds_of(method).light) * scenes.size();
