@@ -15,6 +15,15 @@
 /// through.
 #define EXTENT_ERROR_ULPS 4.0f
 
+/// Points of triangles keep this many of their errors from the sides: 1 keeps them before the next
+/// wall of a room, 2 also where walls meet at 60 degrees and the step off this one nears that.
+#define INSET_ERRORS 2.0f
+/// And at most this share of the height: triangles thinner than those errors keep their middle.
+#define INSET_MAX 0.125f
+/// No side of a triangle is longer than this over the largest component of its first two edges:
+/// 2 sqrt(3), rounded up.
+#define SIDE_MAX 3.5f
+
 /// How far rays start off surfaces in kernels/naive, which the benchmark compares with: the
 /// constant in world units that many programs have. Rendering knows none.
 #define NAIVE_EPSILON 1e-4f
