@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/ray_start.h"
+#include "pack/triangle_start.h"
 
 namespace pellucid {
 namespace {
@@ -51,7 +51,7 @@ struct Start {
 };
 
 Start start_at(const PackedScene& scene, const TraceRay& ray, const TraceHit& hit) {
-  const RayStart s = ray_start(scene, hit);
+  const TriangleStart s = triangle_start(scene, hit.prim, hit.b1, hit.b2);
   Vec n = unit({s.ng.x, s.ng.y, s.ng.z});
   if (dot(n, {ray.dx, ray.dy, ray.dz}) > 0) n = n * -1.0;
   return {Vec{s.p.x, s.p.y, s.p.z} + n * s.offset, n};

@@ -89,7 +89,7 @@ std::size_t shoot_away(const Lab& lab, TracedScene& scene) {
   std::vector<TraceRay> away;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].prim == NONE) continue;
-    const RayStart start = ray_start(scene.packed, hits[i]);
+    const Start start = start_at(scene, hits[i]);
     const glm::dvec3 n(start.ng), out = glm::dot(n, direction_of(first[i])) < 0 ? n : -n;
     glm::dvec3 w = random.direction();
     w *= glm::dot(w, out) < 0 ? -1 : 1;

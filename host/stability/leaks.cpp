@@ -129,7 +129,7 @@ std::size_t leave_from_edges(const Lab& lab, const Closed& closed, double distan
     std::vector<TraceRay> next;
     for (std::size_t i = 0; i < hits.size(); ++i) {
       if (hits[i].prim == NONE) continue;  // counted above
-      const RayStart start = ray_start(traced.packed, hits[i]);
+      const Start start = start_at(traced, hits[i]);
       const glm::dvec3 n(start.ng), up = glm::dot(n, direction_of(first[i])) < 0 ? n : -n;
       for (int k = 0; k < 3; ++k) {
         glm::dvec3 w = random.direction();

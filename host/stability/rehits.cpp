@@ -49,7 +49,7 @@ TraceRay ray_to_surface(const TracedScene& scene, Random& random) {
 }
 
 /// Directions over both hemispheres; every third grazes the surface.
-glm::vec3 spawn_direction(const RayStart& start, std::size_t k, Random& random) {
+glm::vec3 spawn_direction(const Start& start, std::size_t k, Random& random) {
   const glm::dvec3 w = random.direction(), n(start.ng);
   return glm::vec3(k % 3 ? w : glm::normalize(w - n * (glm::dot(n, w) * 0.999)));
 }
@@ -64,8 +64,7 @@ void spawn_batch(TracedScene& scene, Random& random, std::size_t n, bool naive, 
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const TraceHit& hit = hits[i];
     if (hit.prim == NONE || rays.size() >= n) continue;
-    const RayStart start =
-        naive ? naive_ray_start(scene.packed, first[i], hit) : ray_start(scene.packed, hit);
+    const Start start = naive ? naive_start_at(scene, first[i], hit) : start_at(scene, hit);
     float largest = 0;
     for (int k = 0; k < 3; ++k)
       for (int axis = 0; axis < 3; ++axis)
@@ -199,8 +198,7 @@ std::size_t leaks(TracedScene& traced, std::size_t n, const Facing& f, double P,
     const double cosine = glm::dot(w, f.normal);
     if (cosine < 0) w -= 2 * cosine * f.normal;
     if (std::abs(cosine) < 0.05) continue;
-    const RayStart start =
-        naive ? naive_ray_start(traced.packed, rays[i], hit) : ray_start(traced.packed, hit);
+    const Start start = naive ? naive_start_at(traced, rays[i], hit) : start_at(traced, hit);
     next.push_back(start.towards(glm::vec3(w)));
   }
   if (of) *of = next.size();

@@ -81,6 +81,23 @@ TraceRay ray_towards(const glm::dvec3& o, const glm::dvec3& target) {
   return ray_along(from, glm::normalize(target - from));
 }
 
+Start start_at(const TracedScene& scene, const TraceHit& hit) {
+  return {triangle_start(scene.packed, hit.prim, hit.b1, hit.b2)};
+}
+
+Start naive_start_at(const TracedScene& scene, const TraceRay& ray, const TraceHit& hit) {
+  Start s = start_at(scene, hit);
+  s.p = {std::fma(hit.t, ray.dx, ray.ox), std::fma(hit.t, ray.dy, ray.oy),
+         std::fma(hit.t, ray.dz, ray.oz)};
+  s.offset = 0;
+  s.epsilon = NAIVE_EPSILON;
+  return s;
+}
+
+TraceRay Start::towards(const glm::vec3& w) const {
+  return ray_along(TriangleStart::towards(w) + w * epsilon, w);
+}
+
 RawMesh grid(int n, const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b,
              double stretch) {
   RawMesh mesh;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/ray_start.h"
+#include "pack/triangle_start.h"
 #include "render/ray_tracer.h"
 #include "stability/lab.h"
 #include "stability/small_scenes.h"
@@ -66,6 +66,16 @@ inline glm::dvec3 origin_of(const TraceRay& r) {
 inline glm::dvec3 direction_of(const TraceRay& r) {
   return {r.dx, r.dy, r.dz};
 }
+
+/// Where a ray may start that leaves a hit.
+struct Start : TriangleStart {
+  float epsilon = 0;  ///< naive code: how far along the ray it starts
+  TraceRay towards(const glm::vec3& w) const;
+};
+/// As kernels have it.
+Start start_at(const TracedScene& scene, const TraceHit& hit);
+/// The same as naive code has it: at o + t d, an epsilon along the new ray.
+Start naive_start_at(const TracedScene& scene, const TraceRay& ray, const TraceHit& hit);
 
 /// (n + 1)^2 points over corner + [0,1] a + [0,1] b, two triangles per cell; `stretch` > 1 makes
 /// cells of very different sizes.

@@ -1,5 +1,5 @@
 // Points of triangles from barycentrics, with a bound on their error. The host includes this, too:
-// what starts rays in benchmarks and measurements is this very code (host/render/ray_start.cpp).
+// what starts rays in benchmarks and measurements is this very code (host/pack/triangle_start.cpp).
 #ifndef PELLUCID_GEOM_TRIANGLE_POINT_H
 #define PELLUCID_GEOM_TRIANGLE_POINT_H
 
