@@ -59,7 +59,8 @@ INLINE void quadric_uv(Quadric q, PRIVATE Surface* s) {
 }
 #endif
 
-/// Triangle: point, normals and texture coordinates from barycentrics (geom/triangle_point.h).
+/// Triangle: point, normals and texture coordinates from barycentrics. The point alone is moved off
+/// the sides (geom/triangle_point.h); what is looked up is that of the hit itself.
 INLINE void triangle_point(PRIVATE const SceneData* scene, Triangle tri, real b1, real b2,
                            PRIVATE Surface* s) {
   TrianglePoint at =
@@ -68,19 +69,22 @@ INLINE void triangle_point(PRIVATE const SceneData* scene, Triangle tri, real b1
   s->p = at.p;
   s->ng = s->ns = at.ng;
   s->offset = at.offset;
+#if FEAT_TEXTURE || FEAT_SMOOTH_NORMALS
+  real b0 = REAL(1.0) - b1 - b2;
+#endif
 #if FEAT_TEXTURE
   if (s->flags & SHAPE_TEXTURED) {
     GLOBAL const float* uv0 = scene->uvs + (size_t)2 * tri.v0;
     GLOBAL const float* uv1 = scene->uvs + (size_t)2 * tri.v1;
     GLOBAL const float* uv2 = scene->uvs + (size_t)2 * tri.v2;
-    s->u = (real)uv0[0] * at.b.x + (real)uv1[0] * at.b.y + (real)uv2[0] * at.b.z;
-    s->v = (real)uv0[1] * at.b.x + (real)uv1[1] * at.b.y + (real)uv2[1] * at.b.z;
+    s->u = (real)uv0[0] * b0 + (real)uv1[0] * b1 + (real)uv2[0] * b2;
+    s->v = (real)uv0[1] * b0 + (real)uv1[1] * b1 + (real)uv2[1] * b2;
   }
 #endif
 #if FEAT_SMOOTH_NORMALS
   if (s->flags & SHAPE_SMOOTH) {
-    real3 n = load3(scene->normals[tri.v0]) * at.b.x + load3(scene->normals[tri.v1]) * at.b.y +
-              load3(scene->normals[tri.v2]) * at.b.z;
+    real3 n = load3(scene->normals[tri.v0]) * b0 + load3(scene->normals[tri.v1]) * b1 +
+              load3(scene->normals[tri.v2]) * b2;
     real len2 = dot3(n, n);
     if (len2 > REAL(0.0)) s->ns = n * (REAL(1.0) / r_sqrt(len2));
   }

@@ -34,7 +34,6 @@ INLINE real3 weights_inside(real3 b, real3 e1, real3 e2, real scale, real area2,
 typedef struct TrianglePoint {
   real3 p;      // on the triangle up to `offset`
   real3 ng;     // unit geometric normal, front side
-  real3 b;      // its weights of the three corners
   real offset;  // distance along ng that surely clears the rounding error of p
 } TrianglePoint;
 
@@ -48,16 +47,16 @@ INLINE TrianglePoint point_of_triangle(real3 v0, real3 v1, real3 v2, real b1, re
   at.ng = scaled_normal(e1, e2, &scale);
   real area2 = length3(at.ng);
   at.ng = at.ng * (REAL(1.0) / area2);
-  at.b = REAL3(REAL(1.0) - b1 - b2, b1, b2);
-  real3 bound = abs3(v0 * at.b.x) + abs3(v1 * at.b.y) + abs3(v2 * at.b.z);
+  real3 b = REAL3(REAL(1.0) - b1 - b2, b1, b2);
+  real3 bound = abs3(v0 * b.x) + abs3(v1 * b.y) + abs3(v2 * b.z);
   // The intersector's own error grows with the triangle, also where the bound above vanishes
   // because the plane passes through coordinate 0.
   real extent_error = (real)(EXTENT_ERROR_ULPS * UNIT_ROUNDOFF) * (max3(abs3(e1)) + max3(abs3(e2)));
   real point_error = (real)(POINT_ERROR_ULPS * UNIT_ROUNDOFF);
   at.offset = point_error * dot3(abs3(at.ng), bound) + extent_error;
-  at.b = weights_inside(at.b, e1, e2, scale, area2,
-                        (real)INSET_ERRORS * (point_error * max3(bound) + extent_error));
-  at.p = v0 * at.b.x + v1 * at.b.y + v2 * at.b.z;
+  b = weights_inside(b, e1, e2, scale, area2,
+                     (real)INSET_ERRORS * (point_error * max3(bound) + extent_error));
+  at.p = v0 * b.x + v1 * b.y + v2 * b.z;
   return at;
 }
 
