@@ -23,9 +23,18 @@ Rgb grey(double v) {
   return Rgb(v);
 }
 
-/// The same by merging methods, too, where all light is direct: at their default radius.
+/// The same by merging methods, too, where all light is direct: at their default radius. These take
+/// it from light samples or by chance.
 Case merged(Case c) {
   c.methods.insert(c.methods.end(), {"sppm", "vcm"});
+  return c;
+}
+
+/// And by `bpm` where mirrors and glass are all there is, so that none merges: it merges direct
+/// light as well, of which a view as narrow as most here holds too little (footprint_test.cpp).
+Case merged_all(Case c) {
+  c = merged(std::move(c));
+  c.methods.emplace_back("bpm");
   return c;
 }
 
@@ -73,6 +82,14 @@ Case shell() {
           1e-5,
           40,
           0.1};
+}
+
+/// CF7, of the floor and of the ceiling; the mirrors are farther than the radius from what is seen.
+Case plates(bool ceiling) {
+  Case c{"", scene_named("plates"), {{grey(ceiling ? 0.7 : 1), {}, {}}}, all, {}, 1e-5, 32, 0.1};
+  c.methods.insert(c.methods.end(), {"sppm", "bpm", "vcm"});
+  if (ceiling) c.scene.camera.forward *= -1, c.scene.camera.right *= -1;
+  return c;
 }
 
 /// CF4 with the light turned by `degrees` about its x axis and scaled by `size` about its centre,
@@ -288,52 +305,55 @@ std::vector<std::pair<std::string, Maker>> table() {
   std::vector<std::pair<std::string, Maker>> t{
       {"cf1_furnace", furnace},
       {"cf2_point_in_sphere", point_in_sphere},
-      {"cf3_white_diffuse", [] { return white_furnace("diffuse", {"naive"}); }},
-      {"cf3_white_mirror", [] { return white_furnace("mirror", material_only); }},
-      {"cf3_white_glass", [] { return white_furnace("glass", material_only); }},
-      {"cf3_white_metal", white_metal},
+      {"cf3_white_diffuse", [] { return merged(white_furnace("diffuse", {"naive"})); }},
+      {"cf3_white_mirror", [] { return merged_all(white_furnace("mirror", material_only)); }},
+      {"cf3_white_glass", [] { return merged_all(white_furnace("glass", material_only)); }},
+      {"cf3_white_metal", [] { return merged_all(white_metal()); }},
       {"cf4_centre", [] { return merged(shipped("rectangle-light", 0.554126)); }},
-      {"cf4_edge", [] { return shipped("rectangle-light-edge", 0.334750); }},
-      {"cf4_tilted_30", [] { return rectangle_light(30, 1, all); }},
-      {"cf4_two_sided", two_sided_light},
+      {"cf4_edge", [] { return merged(shipped("rectangle-light-edge", 0.334750)); }},
+      {"cf4_tilted_30", [] { return merged(rectangle_light(30, 1, all)); }},
+      {"cf4_two_sided", [] { return merged(two_sided_light()); }},
       {"cf4_tilted_89_small", [] { return rectangle_light(89, 0.01, next_event); }},
       {"cf4_small", [] { return rectangle_light(0, 1e-4, next_event); }},
       {"cf5_below", [] { return merged(shipped("sphere-light", 1)); }},
-      {"cf5_aside", [] { return shipped("sphere-light-offset", 16 * 0.0447214); }},
+      {"cf5_aside", [] { return merged(shipped("sphere-light-offset", 16 * 0.0447214)); }},
       {"cf6_disc", [] { return merged(disc_light()); }},
-      {"cf6_disk_light", [] { return shipped("disk-light", 1); }},
-      {"spot_middle", [] { return spot_on_floor(0); }},
-      {"spot_falloff", [] { return spot_on_floor(25); }},
+      {"cf6_disk_light", [] { return merged(shipped("disk-light", 1)); }},
+      {"spot_middle", [] { return merged(spot_on_floor(0)); }},
+      {"spot_falloff", [] { return merged(spot_on_floor(25)); }},
       {"spot_power", spot_in_sphere},
-      {"cf17_oren_nayar", [] { return oren_nayar_sheet(0.4); }},
-      {"cf17_oren_nayar_roughest", [] { return oren_nayar_sheet(1); }},
-      {"cf17_plastic", [] { return plastic_sheet(0); }},
+      {"cf17_oren_nayar", [] { return merged(oren_nayar_sheet(0.4)); }},
+      {"cf17_oren_nayar_roughest", [] { return merged(oren_nayar_sheet(1)); }},
+      {"cf17_plastic", [] { return merged(plastic_sheet(0)); }},
       {"cf17_rough_plastic", [] { return merged(plastic_sheet(0.4)); }},
-      {"cf17_mix", mix_sheet},
+      {"cf17_mix", [] { return merged(mix_sheet()); }},
+      {"cf7_floor", [] { return plates(false); }},
+      {"cf7_ceiling", [] { return plates(true); }},
       {"cf8_shell", shell},
       {"cf13_sky", [] { return merged(shipped("plane-sky", 1)); }},
-      {"cf13_half_sky", [] { return shipped("plane-half-sky", 1); }},
-      {"cf13_sun_0", [] { return sun(0); }},
+      {"cf13_half_sky", [] { return merged(shipped("plane-half-sky", 1)); }},
+      {"cf13_sun_0", [] { return merged(sun(0)); }},
       {"cf13_sun_60", [] { return merged(sun(60)); }},
-      {"cf13_sun_89", [] { return sun(89); }},
-      {"cf15_inside_glass", [] { return merged(shipped("inside-glass", 2.25)); }},
-      {"cf17_phong", phong_sheet},
-      {"cf17_smooth_metal", [=] { return metal_sheet(0, gold_eta, gold_k); }},
-      {"cf17_rough_metal", [=] { return metal_sheet(0.4, gold_eta, gold_k); }},
-      {"cf17_rough_mirror", [] { return metal_sheet(0.5, Rgb(0.0), Rgb(1.0)); }},
-      {"cf17_glass_front", [] { return glass_sheet(0, false); }},
-      {"cf17_glass_behind", [] { return glass_sheet(0, true); }},
-      {"cf17_rough_glass_front", [] { return glass_sheet(0.4, false); }},
-      {"cf17_rough_glass_behind", [] { return glass_sheet(0.4, true); }}};
+      {"cf13_sun_89", [] { return merged(sun(89)); }},
+      {"cf15_inside_glass", [] { return merged_all(shipped("inside-glass", 2.25)); }},
+      {"cf17_phong", [] { return merged(phong_sheet()); }},
+      {"cf17_smooth_metal", [=] { return merged_all(metal_sheet(0, gold_eta, gold_k)); }},
+      {"cf17_rough_metal", [=] { return merged(metal_sheet(0.4, gold_eta, gold_k)); }},
+      {"cf17_rough_mirror", [] { return merged(metal_sheet(0.5, Rgb(0.0), Rgb(1.0))); }},
+      {"cf17_glass_front", [] { return merged_all(glass_sheet(0, false)); }},
+      {"cf17_glass_behind", [] { return merged_all(glass_sheet(0, true)); }},
+      {"cf17_rough_glass_front", [] { return merged(glass_sheet(0.4, false)); }},
+      {"cf17_rough_glass_behind", [] { return merged(glass_sheet(0.4, true)); }}};
   for (int degrees : {0, 45, 60, 80})
-    t.emplace_back("cf9_thin_" + std::to_string(degrees), [=] { return thin_slab(degrees); });
+    t.emplace_back("cf9_thin_" + std::to_string(degrees),
+                   [=] { return merged_all(thin_slab(degrees)); });
   for (int degrees : {0, 45, 60, 80})
     t.emplace_back("cf9_slab_" + std::to_string(degrees), [=] {
       const std::string name = degrees ? "slab-" + std::to_string(degrees) : "slab";
       // Light that enters a pane by its edges never leaves it again.
       Case c = shipped(name, pane_transmission(degrees, 1.5));
       c.targets.front().max_depth = 1000;
-      return c;
+      return merged_all(c);
     });
   for (int e = 1; e <= 5; ++e) {
     const double radius = std::pow(10.0, -e);

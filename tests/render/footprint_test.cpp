@@ -1,5 +1,6 @@
 // Closed forms averaged over what the camera sees, for methods that cannot see a point: a floor
-// under lamps of every kind, by walks from the lights and by merging (CF4, CF5, CF6, CF13).
+// under lamps of every kind, plates and sheets, by walks from the lights and by merging (CF4, CF5,
+// CF6, CF7, CF13, CF17).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,16 +40,17 @@ double mean_over_floor(const std::function<double(double, double)>& radiance) {
   return integrate(radiance, 0, half, 0, half, 1e-9) / (half * half);
 }
 
-void expect_value(const Scene& scene, double value) {
+void expect_value(const Scene& scene, double value,
+                  const Methods& methods = {"light", "bdpt", "sppm", "bpm", "vcm"}) {
   constexpr int size = 8, runs = 32;
-  for (const char* method : {"light", "bdpt", "sppm", "bpm", "vcm"}) {
+  for (const std::string& method : methods) {
     Build build{method, size, size};
     build.light_paths = 1 << 12;
     build.radius = radius, build.radius_alpha = 1;
     Renderer renderer(scene, build);
     Sampling run;
     const auto spp =
-        renderer.spp_for(run, tier_tolerance() / 8, std::uint64_t(16384 * tier_effort()));
+        renderer.spp_for(run, tier_tolerance() / 9, std::uint64_t(16384 * tier_effort()));
     run.spp = spp / runs + 1;
     Sample sample;
     for (int k = 0; k < runs; ++k) {
@@ -87,6 +89,45 @@ TEST(Footprint, cf6_disc) {
   expect_value(scene, mean_over_floor([&](double x, double z) {
                  return polygon_form_factor({x, 0, z}, {0, 1, 0}, rim);
                }));
+}
+
+/// CF13 beside the alcove: from there it is its opening, 2 wide and 1 high, that hides the sky.
+TEST(Footprint, cf13_half_sky) {
+  constexpr double aside = 0.5;
+  Scene scene = seen_from_above(scene_named("plane-half-sky"));
+  scene.camera.origin.x = aside;
+  const std::vector<glm::dvec3> opening{{0, 0, -1}, {0, 1, -1}, {0, 1, 1}, {0, 0, 1}};
+  const double value = mean_over_floor([&](double x, double z) {
+    double sky = 0;
+    for (double side : {-1, 1})
+      sky += 1 - polygon_form_factor({aside + side * x, 0, z}, {0, 1, 0}, opening);
+    return 2 * sky / 2;  // rho L = 2
+  });
+  EXPECT_GT(value, 1.2) << "at the alcove it is 1";
+  expect_value(scene, value);
+}
+
+/// CF7 by walks from the light: no mirror is in sight, and merging is in the table.
+TEST(Footprint, cf7_plates) {
+  for (const char* name : {"cf7_floor", "cf7_ceiling"}) {
+    const Case c = closed_form_case(name);
+    expect_value(c.scene, c.targets[0].expected.x, {"light"});
+  }
+}
+
+/// CF17 by walks from the sky alone, on a small sheet that fills more of the picture.
+TEST(Footprint, cf17_sheets) {
+  const std::pair<const char*, Methods> sheets[] = {{"cf17_oren_nayar", {"light", "bpm"}},
+                                                    {"cf17_rough_plastic", {"light", "bpm"}},
+                                                    {"cf17_rough_metal", {"light"}},
+                                                    {"cf17_rough_glass_behind", {"light"}}};
+  for (const auto& [name, methods] : sheets) {
+    SCOPED_TRACE(name);
+    Case c = closed_form_case(name);
+    for (glm::vec3& p : std::get<Mesh>(c.scene.shapes.at(0).geometry).positions) p *= 0.012f;
+    c.scene.camera.fov = 4;
+    expect_value(c.scene, c.targets[0].expected.x, methods);
+  }
 }
 
 TEST(Footprint, cf13_sun_and_sky) {
