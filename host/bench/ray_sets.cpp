@@ -50,6 +50,7 @@ struct Start {
   Vec p, n;  ///< n on the side that the ray came from; p already off the surface
 };
 
+/// Where the next ray starts, as kernels have it.
 Start start_at(const PackedScene& scene, const TraceRay& ray, const TraceHit& hit) {
   const TriangleStart s = triangle_start(scene, hit.prim, hit.b1, hit.b2);
   Vec n = unit({s.ng.x, s.ng.y, s.ng.z});

@@ -1,16 +1,20 @@
 // Compiles the kernels' own geom/triangle_point.h in float, so that there is one formula.
 #include "pack/triangle_start.h"
 
+// What kernel headers include themselves has to be known before, outside the namespace.
 #include <cmath>
 #include <cstring>
-#include <glm/geometric.hpp>
 #include <limits>
+
+#include "shared/layout.h"
+#include "shared/limits.h"
 
 #define PELLUCID_REAL float
 #define PELLUCID_REAL_IS_FLOAT
 namespace pellucid::kernel_code {
+#include "geom/ray.h"
 #include "geom/triangle_point.h"
-}
+}  // namespace pellucid::kernel_code
 
 namespace pellucid {
 namespace {
@@ -33,7 +37,8 @@ TriangleStart triangle_start(const PackedScene& scene, uint prim, float b1, floa
 }
 
 glm::vec3 TriangleStart::towards(const glm::vec3& w) const {
-  return p + ng * (glm::dot(ng, w) < 0.0f ? -offset : offset);
+  const auto real3 = [](const glm::vec3& v) { return kernel_code::real3{v.x, v.y, v.z}; };
+  return vec(kernel_code::spawn_origin(real3(p), real3(ng), offset, real3(w)));
 }
 
 }  // namespace pellucid

@@ -15,8 +15,8 @@ struct TriangleStart {
   glm::vec3 towards(const glm::vec3& w) const;
 };
 
-/// At weights b1, b2 of the second and third corner of triangle `prim`: what kernels compute, to
-/// the bit in `--float strict`.
+/// At weights b1, b2 of the second and third corner of triangle `prim`: the kernels' code, and
+/// their bits in `--float strict` on devices that round divisions and roots correctly.
 TriangleStart triangle_start(const PackedScene& scene, uint prim, float b1, float b2);
 
 }  // namespace pellucid

@@ -49,6 +49,7 @@ void expect_value(const Scene& scene, double value,
     build.radius = radius, build.radius_alpha = 1;
     Renderer renderer(scene, build);
     Sampling run;
+    // 4.5 sigma of the verdict, an error of 3 and that of the disc fit into the tolerance.
     const auto spp =
         renderer.spp_for(run, tier_tolerance() / 9, std::uint64_t(16384 * tier_effort()));
     run.spp = spp / runs + 1;
@@ -115,7 +116,7 @@ TEST(Footprint, cf7_plates) {
   }
 }
 
-/// CF17 by walks from the sky alone, on a small sheet that fills more of the picture.
+/// CF17 by walks from the sky alone, on a sheet so small that it just fills the picture.
 TEST(Footprint, cf17_sheets) {
   const std::pair<const char*, Methods> sheets[] = {{"cf17_oren_nayar", {"light", "bpm"}},
                                                     {"cf17_rough_plastic", {"light", "bpm"}},
