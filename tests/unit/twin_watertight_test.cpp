@@ -168,4 +168,62 @@ TEST(TwinSpawn, SpheresAreHitAgainOnlyAcross) {
   EXPECT_GT(rays, 300000);
 }
 
+/// What a point of a triangle is moved by to keep off the sides, and what it must be.
+struct Kept {
+  double moved, nearest;  ///< nearest: to a side
+  double margin;          ///< INSET_ERRORS times the bound of the point's error, in double
+};
+
+Kept keep(const glm::dvec3 (&v)[3], const glm::dvec3& b) {
+  const TrianglePoint at =
+      point_of_triangle(to_real3(v[0]), to_real3(v[1]), to_real3(v[2]), real(b.y), real(b.z));
+  const glm::dvec3 p(at.p.x, at.p.y, at.p.z);
+  const glm::dvec3 n = glm::normalize(glm::cross(v[1] - v[0], v[2] - v[0]));
+  const auto largest = [](const glm::dvec3& x) {
+    return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+  };
+  Kept kept{glm::length(p - (v[0] * b.x + v[1] * b.y + v[2] * b.z)), 1e300, 0};
+  for (int k = 0; k < 3; ++k) {
+    const glm::dvec3 side = v[(k + 1) % 3] - v[k];
+    kept.nearest =
+        std::min(kept.nearest, glm::dot(glm::cross(n, side), p - v[k]) / glm::length(side));
+  }
+  const double point = POINT_ERROR_ULPS *
+                       largest(glm::abs(v[0] * b.x) + glm::abs(v[1] * b.y) + glm::abs(v[2] * b.z));
+  const double extent = EXTENT_ERROR_ULPS * (largest(v[1] - v[0]) + largest(v[2] - v[0]));
+  kept.margin = INSET_ERRORS * UNIT_ROUNDOFF * (point + extent);
+  return kept;
+}
+
+/// Points on sides and at corners of random triangles: `aspect` times as wide as high, with the
+/// apex over the middle half, of any size and up to 100 sizes from the origin.
+template <class Check>
+void at_sides(double aspect, const Check& check) {
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const double size = std::exp2(random.uniform(-60, 60));
+    const glm::dvec3 x = random.direction(), place = size * random.in_box(100);
+    const glm::dvec3 y = glm::normalize(glm::cross(x, random.direction()));
+    const double foot = random.uniform(0.25, 0.75);
+    const glm::dvec3 raw[3] = {place, place + size * x, place + size * (foot * x + y / aspect)};
+    glm::dvec3 v[3];
+    for (int k = 0; k < 3; ++k) {
+      const real3 rounded = to_real3(raw[(k + i) % 3]);
+      v[k] = {rounded.x, rounded.y, rounded.z};
+    }
+    const double u = i % 5 == 0 ? 0 : random.uniform();
+    glm::dvec3 b(0, u, 1 - u);
+    std::swap(b[0], b[i / 3 % 3]);
+    check(keep(v, b));
+  }
+}
+
+// A point on a side is moved off it by its margin, to which its rounding adds a third of that at
+// most; and straight: no farther than what both sides of a corner make of it, however thin.
+TEST(TwinWatertight, PointsKeepOffSides) {
+  at_sides(1, [](const Kept& k) { ASSERT_GT(k.nearest, 0.6 * k.margin); });
+  for (double aspect : {1.0, 10.0, 1e3})
+    at_sides(aspect, [&](const Kept& k) { ASSERT_LT(k.moved, 8 * k.margin) << aspect; });
+}
+
 }  // namespace
