@@ -2,8 +2,7 @@
 // size, no sample towers over the mean.
 //
 // The geometry term 1 / d^2 has no bound, but weights with all strategies do: what a connection of
-// near vertices overrates, another finds better. Nothing is clamped. The price is that of weights:
-// two densities per vertex, carried along as the walk goes (transport/mis.h).
+// near vertices overrates, another finds better. Nothing is clamped.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,9 +2,8 @@
 // one length have the same mean, each by itself, unweighted.
 //
 // sample(), eval() and pdf() of a lobe are one function's business, and the density of a vertex is
-// stored with it (transport/vertex.h): the price is that number's room. That weights add up to 1 on
-// every path is for the tests of the twin, which weigh each strategy by brute force in double
-// (tests/unit/audit_*).
+// stored with it (transport/vertex.h). That weights add up to 1 on every path is for the tests of
+// the twin, which weigh each strategy by brute force in double (tests/unit/audit_*).
 #include <fmt/format.h>
 
 #include <cmath>

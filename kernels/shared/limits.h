@@ -15,20 +15,6 @@
 /// through.
 #define EXTENT_ERROR_ULPS 4.0f
 
-/// Points of triangles keep this many of their errors from the sides: 1 keeps them before the next
-/// wall of a room, 3 also where walls meet at 45 degrees and the step off this one nears that. (At
-/// 30, of rays from the corners of a room 1e3 of its sizes away 0.5 % still leave.)
-#define INSET_ERRORS 3.0f
-/// And at most this share of the height: triangles thinner than those errors keep their middle.
-#define INSET_MAX 0.125f
-/// Moves off each of three sides. What two leave of each other's work falls by cos^2 of the corner
-/// every time: to 3 % at 45 degrees; in sharper corners points stay nearer to the sides rather than
-/// move far.
-#define INSET_ROUNDS 5
-/// No side of a triangle is longer than this over the largest component of its first two edges:
-/// 2 sqrt(3), rounded up.
-#define SIDE_MAX 3.5f
-
 /// How far rays start off surfaces in kernels/naive, which the benchmark compares with: the
 /// constant in world units that many programs have. Rendering knows none.
 #define NAIVE_EPSILON 1e-4f
@@ -89,9 +75,8 @@
 #define MERGE_REACH 1.00000095367431640625f
 
 /// Least radius of merging, in unit roundoffs of the scene's largest coordinate: in smaller discs
-/// the error of points themselves (POINT_ERROR_ULPS) would decide what is found. (Those next to an
-/// edge move by as much as that, INSET_ERRORS, which at such a radius is seen around edges.)
-/// Numbers of cells then stay below 2^20.
+/// the error of points themselves (POINT_ERROR_ULPS) would decide what is found. Numbers of cells
+/// then stay below 2^20.
 #define MERGE_RADIUS_ULPS 16.0f
 /// Bounds of it in any unit of length: squares of the radius are normal numbers, and so are the
 /// areas of 2^32 discs.
