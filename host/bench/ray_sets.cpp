@@ -1,10 +1,11 @@
 // Deterministic ray sets in double, rounded once.
 #include "bench/ray_sets.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "pack/triangle_start.h"
 
 namespace pellucid {
 namespace {
@@ -24,12 +25,10 @@ Vec operator*(const Vec& a, double s) {
 double dot(const Vec& a, const Vec& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 Vec unit(const Vec& a) {
   return a * (1.0 / std::sqrt(dot(a, a)));
 }
+
 Vec vec(const F4& v) {
   return {v.x, v.y, v.z};
 }
@@ -51,24 +50,12 @@ struct Start {
   Vec p, n;  ///< n on the side that the ray came from; p already off the surface
 };
 
-/// Where a new ray may start, by the same bound as the kernels' (geom/surface.h).
+/// Where the next ray starts, as kernels have it.
 Start start_at(const PackedScene& scene, const TraceRay& ray, const TraceHit& hit) {
-  const Triangle& t = scene.triangles[hit.prim];
-  const Vec v[3] = {vec(scene.positions[t.v0]), vec(scene.positions[t.v1]),
-                    vec(scene.positions[t.v2])};
-  const double b[3] = {1.0 - hit.b1 - hit.b2, hit.b1, hit.b2};
-  Vec n = unit(cross(v[1] - v[0], v[2] - v[0]));
+  const TriangleStart s = triangle_start(scene, hit.prim, hit.b1, hit.b2);
+  Vec n = unit({s.ng.x, s.ng.y, s.ng.z});
   if (dot(n, {ray.dx, ray.dy, ray.dz}) > 0) n = n * -1.0;
-  double bound = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int k = 0; k < 3; ++k) bound += std::abs(n[axis] * b[k] * v[k][axis]);
-  double extent = 0;
-  for (const Vec& edge : {v[1] - v[0], v[2] - v[0]})
-    extent += std::max({std::abs(edge[0]), std::abs(edge[1]), std::abs(edge[2])});
-  const double offset = double(UNIT_ROUNDOFF) *
-                        (double(POINT_ERROR_ULPS) * bound + double(EXTENT_ERROR_ULPS) * extent);
-  const Vec p = v[0] * b[0] + v[1] * b[1] + v[2] * b[2];
-  return {p + n * offset, n};
+  return {Vec{s.p.x, s.p.y, s.p.z} + n * s.offset, n};
 }
 
 }  // namespace

@@ -9,6 +9,9 @@ namespace pellucid::stability {
 namespace {
 
 constexpr double sigmas = 4.5;
+/// Of tiles, of which there are many: beyond it by chance are 1 in 1e6 where 32 runs tell the
+/// spread (Student's t).
+constexpr double tile_sigmas = 6;
 
 /// What is too noisy to judge has not shown anything.
 void require_resolution(const Lab& lab, Findings& findings, const std::string& what, double noise,
@@ -41,6 +44,19 @@ void compare_means(const Lab& lab, Findings& findings, const std::string& what,
   require_resolution(lab, findings, what, widest, resolution);
 }
 
+void compare_pictures(const Lab& lab, Findings& findings, const std::string& what,
+                      const Measured& a, const Measured& b, double resolution) {
+  compare_means(lab, findings, what, a.image, b.image, resolution);
+  double worst = 0;
+  for (std::size_t t = 0; t < a.tiles.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Estimate &x = a.tiles[t][c], &y = b.tiles[t][c];
+      const double off = std::abs(x.mean - y.mean), noise = std::sqrt(x.variance + y.variance);
+      if (off > 0) worst = std::max(worst, off / noise);
+    }
+  findings.at_most(what + ": tiles apart, in standard errors", worst, tile_sigmas);
+}
+
 std::array<Estimate, CUT_COUNT> measured_cuts(Renderer& renderer, Sampling run) {
   constexpr std::size_t parts = 32;
   std::array<std::vector<double>, CUT_COUNT> shares;
@@ -60,13 +76,18 @@ std::array<Estimate, CUT_COUNT> measured_cuts(Renderer& renderer, Sampling run) 
   return found;
 }
 
-std::array<Estimate, 3> measured_means(const Lab& lab, const Scene& scene, const Build& build,
-                                       Sampling run, double resolution) {
+Measured measured(const Lab& lab, const Scene& scene, const Build& build, Sampling run,
+                  double resolution) {
   Renderer renderer(lab, scene, build);
   const double error = resolution / std::sqrt(lab.effort) / 6;
   run.spp =
       std::max<std::uint64_t>(64, renderer.spp_for(run, error, std::uint64_t(65536 * lab.effort)));
-  return renderer.measure(run).image;
+  return renderer.measure(run);
+}
+
+std::array<Estimate, 3> measured_means(const Lab& lab, const Scene& scene, const Build& build,
+                                       Sampling run, double resolution) {
+  return measured(lab, scene, build, run, resolution).image;
 }
 
 Estimate measured_mean(const Lab& lab, const Scene& scene, const Build& build,

@@ -87,7 +87,7 @@ void light_through_glass_is_found_or_told(const Lab& lab, Findings& findings) {
     return irradiance_below_pane(std::hypot(x, y), h, t, n);
   };
   const double value = 0.5 / pi * integrate(irradiance, 0, half, 0, half, 1e-9) / (half * half);
-  for (const char* method : {"light", "bdpt", "sppm", "vcm"}) {
+  for (const char* method : {"light", "bdpt", "sppm", "bpm", "vcm"}) {
     Build build{method, 4, 4};
     build.light_paths = 1 << 10;
     build.radius = radius, build.radius_alpha = 1;
@@ -124,19 +124,43 @@ void measure_edge_on(const Lab& lab, Findings& findings) {
             measured_mean(lab, scene, {method, 16, 16}, {}), value, 2e-3);
 }
 
+/// CF5 with a smaller lamp of the same power.
+Scene under_lamp(const Lab& lab, double radius) {
+  Scene scene = lab.open_scene("sphere-light-offset");
+  Shape& light = shape_named(scene, "light");
+  Sphere& sphere = std::get<Sphere>(light.geometry);
+  light.emission->radiance *= std::pow(sphere.radius / radius, 2);
+  sphere.radius = radius;
+  return scene;
+}
+
 void small_lights_keep_their_power(const Lab& lab, Findings& findings) {
   measure_edge_on(lab, findings);
+  constexpr double resolution = 2e-3;
   const double value = 16 * 0.0447214;  // CF5 beside the light, at constant Le R^2
   for (const char* method : {"nee", "path", "bdpt"})
-    for (int e = 1; e <= 6; ++e) {
-      Scene scene = lab.open_scene("sphere-light-offset");
-      Shape& light = shape_named(scene, "light");
-      Sphere& sphere = std::get<Sphere>(light.geometry);
-      const double radius = std::pow(10.0, -e);
-      light.emission->radiance *= std::pow(sphere.radius / radius, 2);
-      sphere.radius = radius;
+    for (int e = 1; e <= 6; ++e)
       compare(lab, findings, fmt::format("lamp of radius 1e-{}, {}", e, method),
-              measured_mean(lab, scene, {method, 16, 16}, {}), value, 1e-4);
+              measured_means(lab, under_lamp(lab, std::pow(10.0, -e)), {method, 16, 16}, {},
+                             resolution)[0],
+              value, 1e-4, resolution);
+  // Walks from the lamp find a square of the floor, from half its side beside the foot on.
+  constexpr double h = 2, half = 0.5, x = 1, power = 8, rho = 0.5;  // power: Le R^2
+  const auto floor = [](double u, double v) {
+    return rho * power * h / std::pow(h * h + u * u + v * v, 1.5);
+  };
+  const double mean = integrate(floor, x - half, x + half, -half, half, 1e-9);
+  for (const char* method : {"light", "sppm", "bpm", "vcm"})
+    for (double radius : {1e-2, 1e-6}) {
+      Scene scene = under_lamp(lab, radius);
+      Camera& c = scene.camera;
+      c.origin = {x, 1, 0}, c.forward = {0, -1, 0}, c.right = {1, 0, 0}, c.up = {0, 0, -1};
+      c.fov = 2 * std::atan(half) * 180 / pi;
+      Build build{method, 16, 16};
+      build.light_paths = 1 << 12;
+      build.radius = 0.01, build.radius_alpha = 1;  // its bias goes with its square
+      compare(lab, findings, fmt::format("square under a lamp of radius {:g}, {}", radius, method),
+              measured_mean(lab, scene, build, {}), mean, 1e-4);
     }
 }
 
@@ -186,7 +210,7 @@ void panes_let_through_what_they_must(const Lab& lab, Findings& findings) {
               measured_mean(lab, scene, {method, 16, 16}, {64, 1, depth, MIS_BALANCE}),
               pane_transmission(degrees, 1.5), 1e-5);
     }
-  for (const char* method : {"path", "bdpt", "vcm"})
+  for (const char* method : {"path", "bdpt", "sppm", "vcm"})
     compare(
         lab, findings, fmt::format("pane at 89 degrees, {}", method),
         measured_mean(lab, pane_seen_at(lab, 89), {method, 16, 16}, {64, 1, depth, MIS_BALANCE}),

@@ -113,6 +113,19 @@ double Picture::block_mean(int channel, int x0, int y0, int block) const {
   return sum / n;
 }
 
+Estimate Picture::tile(int channel, int t) const {
+  const int w = width / TILES_ACROSS, h = height / TILES_ACROSS;
+  const int x0 = t % TILES_ACROSS * w, y0 = t / TILES_ACROSS * h;
+  Estimate e;
+  for (int y = y0; y < y0 + h; ++y)
+    for (int x = x0; x < x0 + w; ++x) {
+      const Estimate& p = pixels[std::size_t(y * width + x)][std::size_t(channel)];
+      e.mean += p.mean / (w * h);
+      e.variance += p.variance / (double(w * h) * (w * h));
+    }
+  return e;
+}
+
 std::size_t different_pixels(const Film& a, const Film& b) {
   if (a.pixels.size() != b.pixels.size()) return std::max(a.pixels.size(), b.pixels.size());
   std::size_t n = 0;
@@ -195,12 +208,15 @@ std::pair<Picture, ErrorEstimate> Renderer::render_to(double target, const Sampl
 }
 
 Measured Renderer::measure(const Sampling& run) {
-  Measured m;
+  Measured m{};
   const Integrator& method = find_integrator(build_.method);
   if (!method.uses(Bundle::splat) && !method.uses(Bundle::grid)) {
     const Picture picture = render(run);
     m.pixels = picture.pixels;
-    for (int c = 0; c < 3; ++c) m.image[std::size_t(c)] = picture.image(c);
+    for (std::size_t c = 0; c < 3; ++c) {
+      m.image[c] = picture.image(int(c));
+      for (std::size_t t = 0; t < m.tiles.size(); ++t) m.tiles[t][c] = picture.tile(int(c), int(t));
+    }
     return m;
   }
   constexpr std::uint64_t parts = 32;
@@ -217,6 +233,8 @@ Measured Renderer::measure(const Sampling& run) {
     const Picture picture = render(part);
     for (std::size_t c = 0; c < 3; ++c) {
       add(m.image[c], picture.image(int(c)).mean, k);
+      for (std::size_t t = 0; t < m.tiles.size(); ++t)
+        add(m.tiles[t][c], picture.tile(int(c), int(t)).mean, k);
       for (std::size_t i = 0; i < m.pixels.size(); ++i)
         add(m.pixels[i][c], picture.pixels[i][c].mean, k);
     }

@@ -57,7 +57,11 @@ struct Picture {
   /// (sum x)^2 / sum x^2 over the samples of a block of pixels: how many of them matter.
   double effective_samples(int channel, int x0, int y0, int block) const;
   double block_mean(int channel, int x0, int y0, int block) const;
+  /// Tile t of TILES_ACROSS^2, by rows, of a picture that these divide.
+  Estimate tile(int channel, int t) const;
 };
+
+constexpr int TILES_ACROSS = 4;
 
 /// The same bits in every accumulator of every pixel.
 bool same_film(const Film& a, const Film& b);
@@ -74,9 +78,10 @@ struct Sampling {
   uint mis = MIS_BALANCE;
 };
 
-/// Means of the picture and of its pixels.
+/// Means of the picture, of its tiles and of its pixels.
 struct Measured {
   std::array<Estimate, 3> image;
+  std::array<std::array<Estimate, 3>, TILES_ACROSS * TILES_ACROSS> tiles;
   std::vector<std::array<Estimate, 3>> pixels;
 };
 

@@ -30,9 +30,9 @@ Scene moved(const Scene& scene, const glm::dvec3& scale, double sizes) {
   return there;
 }
 
-std::array<Estimate, 3> means(const Lab& lab, const Scene& scene, const char* method) {
+Measured pictured(const Lab& lab, const Scene& scene, const char* method) {
   // Noise of two such adds up.
-  return measured_means(lab, scene, {method, 16, 16}, {}, 0.6 * usual_resolution);
+  return measured(lab, scene, {method, 16, 16}, {}, 0.6 * usual_resolution);
 }
 
 Film film_of(const Lab& lab, const Scene& scene, const char* method) {
@@ -152,14 +152,14 @@ std::vector<std::pair<std::string, glm::dmat3>> turns() {
 void far_away_is_as_near(const Lab& lab, Findings& findings) {
   const Scene here = lab.open_scene("equal-lights");
   for (const char* method : {"path", "bdpt", "vcm"}) {
-    const std::array<Estimate, 3> near = means(lab, here, method);
+    const Measured near = pictured(lab, here, method);
     for (double sizes : {1e2, 1e4})
-      compare_means(lab, findings, fmt::format("moved by {:g} sizes, {}", sizes, method),
-                    means(lab, moved(here, glm::dvec3(1), sizes), method), near);
+      compare_pictures(lab, findings, fmt::format("moved by {:g} sizes, {}", sizes, method),
+                       pictured(lab, moved(here, glm::dvec3(1), sizes), method), near);
     if (method == std::string("vcm")) continue;
     for (const auto& [how, turn] : turns())
-      compare_means(lab, findings, fmt::format("turned {}, {}", how, method),
-                    means(lab, turned(here, turn), method), near);
+      compare_pictures(lab, findings, fmt::format("turned {}, {}", how, method),
+                       pictured(lab, turned(here, turn), method), near);
   }
   measure_loading(lab, findings);
 }
@@ -168,12 +168,12 @@ void mirrored_is_the_same(const Lab& lab, Findings& findings) {
   measure_flux(lab, findings);
   const Scene here = lab.open_scene("equal-lights");
   for (const char* method : {"path", "bdpt"}) {
-    const std::array<Estimate, 3> plain = means(lab, here, method);
+    const Measured plain = pictured(lab, here, method);
     for (int axis = 0; axis < 3; ++axis) {
       glm::dvec3 scale(1);
       scale[axis] = -1;
-      compare_means(lab, findings, fmt::format("mirrored along axis {}, {}", axis, method),
-                    means(lab, moved(here, scale, 0), method), plain);
+      compare_pictures(lab, findings, fmt::format("mirrored along axis {}, {}", axis, method),
+                       pictured(lab, moved(here, scale, 0), method), plain);
     }
   }
 }

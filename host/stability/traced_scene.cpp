@@ -1,7 +1,6 @@
 // Lists of rays through the device's own traversal.
 #include "stability/traced_scene.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -83,23 +82,7 @@ TraceRay ray_towards(const glm::dvec3& o, const glm::dvec3& target) {
 }
 
 Start start_at(const TracedScene& scene, const TraceHit& hit) {
-  const glm::vec3 v0 = scene.corner(hit.prim, 0), v1 = scene.corner(hit.prim, 1);
-  const glm::vec3 v2 = scene.corner(hit.prim, 2);
-  const float b0 = 1.0f - hit.b1 - hit.b2;
-  const glm::vec3 a = v0 * b0, b = v1 * hit.b1, c = v2 * hit.b2;
-  const glm::vec3 e1 = v1 - v0, e2 = v2 - v0;
-  const glm::vec3 n{e1.y * e2.z - e1.z * e2.y, e1.z * e2.x - e1.x * e2.z,
-                    e1.x * e2.y - e1.y * e2.x};
-  Start s;
-  s.p = a + b + c;
-  s.ng = n * (1.0f / std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z));
-  const glm::vec3 bound = glm::abs(a) + glm::abs(b) + glm::abs(c);
-  const auto largest = [](const glm::vec3& e) {
-    return std::max({std::abs(e.x), std::abs(e.y), std::abs(e.z)});
-  };
-  s.offset = (POINT_ERROR_ULPS * UNIT_ROUNDOFF) * glm::dot(glm::abs(s.ng), bound) +
-             (EXTENT_ERROR_ULPS * UNIT_ROUNDOFF) * (largest(e1) + largest(e2));
-  return s;
+  return {triangle_start(scene.packed, hit.prim, hit.b1, hit.b2)};
 }
 
 Start naive_start_at(const TracedScene& scene, const TraceRay& ray, const TraceHit& hit) {
@@ -112,8 +95,7 @@ Start naive_start_at(const TracedScene& scene, const TraceRay& ray, const TraceH
 }
 
 TraceRay Start::towards(const glm::vec3& w) const {
-  const glm::vec3 o = p + w * epsilon + ng * (glm::dot(ng, w) < 0.0f ? -offset : offset);
-  return ray_along(o, w);
+  return ray_along(TriangleStart::towards(w) + w * epsilon, w);
 }
 
 RawMesh grid(int n, const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pack/triangle_start.h"
 #include "render/ray_tracer.h"
 #include "stability/lab.h"
 #include "stability/small_scenes.h"
@@ -66,13 +67,12 @@ inline glm::dvec3 direction_of(const TraceRay& r) {
   return {r.dx, r.dy, r.dz};
 }
 
-/// Where a spawned ray may start: the formulas of geom/surface.h in float, for triangles.
-struct Start {
-  glm::vec3 p, ng;
-  float offset;
+/// Where a ray may start that leaves a hit.
+struct Start : TriangleStart {
   float epsilon = 0;  ///< naive code: how far along the ray it starts
   TraceRay towards(const glm::vec3& w) const;
 };
+/// As kernels have it.
 Start start_at(const TracedScene& scene, const TraceHit& hit);
 /// The same as naive code has it: at o + t d, an epsilon along the new ray.
 Start naive_start_at(const TracedScene& scene, const TraceRay& ray, const TraceHit& hit);

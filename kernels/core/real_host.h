@@ -1,5 +1,6 @@
-// The twin's side of core/real.h: real and real3 for C++. Compile with -DPELLUCID_REAL=float or
-// double; everything lands in a namespace of its own, so both can live in one program.
+// The host's side of core/real.h (the twin, pack/triangle_start.cpp): real and real3 for C++.
+// Compile with -DPELLUCID_REAL=float or double; everything lands in a namespace of its own, so both
+// can live in one program.
 #ifndef PELLUCID_CORE_REAL_HOST_H
 #define PELLUCID_CORE_REAL_HOST_H
 

@@ -5,6 +5,7 @@
 
 #include "core/math.h"
 #include "geom/bvh_traverse.h"
+#include "geom/triangle_point.h"
 
 typedef struct Surface {
   real3 p;      // world; on the surface up to `offset`
@@ -58,33 +59,18 @@ INLINE void quadric_uv(Quadric q, PRIVATE Surface* s) {
 }
 #endif
 
-/// Normal of a triangle with edges e1, e2, as long as twice its area over *scale squared. Dividing
-/// by the largest component first keeps squares in range for edges of any length.
-INLINE real3 scaled_normal(real3 e1, real3 e2, PRIVATE real* scale) {
-  *scale = r_max(max3(abs3(e1)), max3(abs3(e2)));
-  real inv = REAL(1.0) / *scale;
-  return cross3(e1 * inv, e2 * inv);
-}
-
-/// Triangle: point rebuilt from barycentrics, which is far more accurate than o + t d; its error is
-/// bounded by POINT_ERROR_ULPS roundoffs of sum |b_i v_i| per axis, projected on the normal
-/// [PBRT4 6.8].
+/// Triangle: point, normals and texture coordinates from barycentrics.
 INLINE void triangle_point(PRIVATE const SceneData* scene, Triangle tri, real b1, real b2,
                            PRIVATE Surface* s) {
-  real3 v0 = load3(scene->positions[tri.v0]);
-  real3 v1 = load3(scene->positions[tri.v1]);
-  real3 v2 = load3(scene->positions[tri.v2]);
+  TrianglePoint at =
+      point_of_triangle(load3(scene->positions[tri.v0]), load3(scene->positions[tri.v1]),
+                        load3(scene->positions[tri.v2]), b1, b2);
+  s->p = at.p;
+  s->ng = s->ns = at.ng;
+  s->offset = at.offset;
+#if FEAT_TEXTURE || FEAT_SMOOTH_NORMALS
   real b0 = REAL(1.0) - b1 - b2;
-  s->p = v0 * b0 + v1 * b1 + v2 * b2;
-  real scale;
-  s->ng = normalize3(scaled_normal(v1 - v0, v2 - v0, &scale));
-  s->ns = s->ng;
-  real3 bound = abs3(v0 * b0) + abs3(v1 * b1) + abs3(v2 * b2);
-  // The intersector's own error grows with the triangle, also where the bound above vanishes
-  // because the plane passes through coordinate 0.
-  real extent = max3(abs3(v1 - v0)) + max3(abs3(v2 - v0));
-  s->offset = (real)(POINT_ERROR_ULPS * UNIT_ROUNDOFF) * dot3(abs3(s->ng), bound) +
-              (real)(EXTENT_ERROR_ULPS * UNIT_ROUNDOFF) * extent;
+#endif
 #if FEAT_TEXTURE
   if (s->flags & SHAPE_TEXTURED) {
     GLOBAL const float* uv0 = scene->uvs + (size_t)2 * tri.v0;
