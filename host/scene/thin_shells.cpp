@@ -88,6 +88,7 @@ std::vector<Ball> sorted_balls(const Scene& scene) {
 
 std::string thin_shell_warning(const Scene& scene) {
   const std::vector<Ball> balls = sorted_balls(scene);
+  if (std::none_of(balls.begin(), balls.end(), [](const Ball& b) { return b.clear; })) return "";
   for (const Ball& a : balls) {
     // Of a ball whose center is d off, needed / (alike * d) is near at most. So d is below this
     // where that is more than a spot, and the difference of the radii, too, or they do not meet.

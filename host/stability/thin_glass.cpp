@@ -1,6 +1,6 @@
-// Thin glass (numerics 15): a pane lets through what it must down to a hundred-thousandth of its
-// size, a hollow ball to one of its radius; of thinner ones loading warns. Glass with water and air
-// in it shows all of the sky.
+// Thin glass (numerics 15): a pane lets through what it must down to a millionth of its size, a
+// hollow ball to four of its radius; of thinner ones loading warns. Glass with water and air in it
+// shows all of the sky.
 //
 // Rays start off a surface by a bound of its rounding (geom/surface.h). Where glass is thinner than
 // that, one that enters it starts beyond its other side; naive code, which nudges by a constant,
@@ -121,7 +121,7 @@ void measure_media(const Lab& lab, Findings& findings) {
 void thin_panes_let_light_through(const Lab& lab, Findings& findings) {
   constexpr double size = 40;
   constexpr uint depth = 1000;  // light that enters a pane by its edges never leaves it again
-  for (double part : {2e-2, 1e-3, 1e-4, 1e-5}) {
+  for (double part : {2e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
     const Scene scene = pane_of(lab, size * part);
     for (const char* method : {"path", "bdpt", "vcm"})
       compare(lab, findings, fmt::format("pane of {:g} sizes, {}", part, method),

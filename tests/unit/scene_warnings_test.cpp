@@ -104,6 +104,10 @@ TEST(SceneWarnings, ThinGlassIsMeasured) {
     Scene scene;
     scene.materials.emplace_back();
     scene.materials[0].kind = kind;
+    if (kind == MaterialKind::mix) {
+      scene.materials[0].parts.resize(2);
+      scene.materials[0].parts[1].kind = MaterialKind::dielectric;
+    }
     const BakedMesh box = bake_mesh(make_cube({0, 0, 0}, {4, thickness, 4}), {}, false);
     scene.shapes.push_back(shape_of(box.mesh));
     return thin_glass_warning(scene);
@@ -112,6 +116,7 @@ TEST(SceneWarnings, ThinGlassIsMeasured) {
   EXPECT_NE(pane(1e-6, MaterialKind::dielectric).find("1e-06 thick"), std::string::npos)
       << pane(1e-6, MaterialKind::dielectric);
   EXPECT_EQ(pane(1e-6, MaterialKind::diffuse), "") << "no glass";
+  EXPECT_NE(pane(1e-6, MaterialKind::mix), "") << "of glass and paint";
 }
 
 Scene balls(const std::vector<std::pair<Sphere, MaterialKind>>& list) {
