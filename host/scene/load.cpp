@@ -17,6 +17,7 @@
 #include "scene/parse.h"
 #include "scene/text_file.h"
 #include "scene/thin_glass.h"
+#include "scene/thin_shells.h"
 
 namespace pellucid {
 namespace {
@@ -83,7 +84,7 @@ void finish_warnings(SceneBuilder& builder) {
                                [](const Shape& shape) { return shape.emission.has_value(); });
   if (!lit) scene.warnings.push_back("the scene has no light: the picture will be black");
   for (const auto warning :
-       {distance_warning, coplanar_warning, needle_warning, thin_glass_warning})
+       {distance_warning, coplanar_warning, needle_warning, thin_glass_warning, thin_shell_warning})
     if (std::string text = warning(scene); !text.empty()) scene.warnings.push_back(std::move(text));
 }
 

@@ -7,6 +7,9 @@
 
 namespace pellucid {
 
+/// Whether rays go through it, all of it or a part of a mix.
+bool lets_rays_in(const Material& material);
+
 /// What to tell the user of the first pane of glass thinner than what keeps rays off surfaces; ""
 /// where there is none.
 std::string thin_glass_warning(const Scene& scene);

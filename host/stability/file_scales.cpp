@@ -2,7 +2,10 @@
 // parsing, generating, transforming, counting from the middle, warning and rendering have no length
 // of their own.
 //
-// The other half of case 10 (exact.cpp) scales what is loaded already.
+// Naive code welds, drops or warns by constants in world units. Here all bounds are relative, and
+// coordinates stay in double until they are placed and rounded once (scene/placement.cpp): twice
+// the memory of positions while loading, nothing while rendering. The other half of case 10
+// (exact.cpp) scales what is loaded already.
 #include <fmt/format.h>
 
 #include <cmath>

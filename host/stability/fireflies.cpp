@@ -1,8 +1,10 @@
 // Connections of vertices that almost coincide (numerics 14): in corners, and near a lamp without
 // size, no sample towers over the mean.
 //
-// The geometry term 1 / d^2 has no bound, but weights with all strategies do: what a connection of
-// near vertices overrates, another finds better. Nothing is clamped.
+// The geometry term 1 / d^2 has no bound, and naive code cuts off what it makes, which is bias.
+// Weights with all strategies have one: what a connection of near vertices overrates, another finds
+// better. Nothing is clamped. The price is that of weights: two running ratios of densities,
+// carried along by every walk and stored with its vertices (transport/partials.h).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,7 +2,8 @@
 //
 // Two of the cells around a point may share a place in the hash table, and a cell's number may
 // exceed what a float or an int holds. Searches compare the cell itself, whose coordinates are
-// whole numbers counted from the scene's corner; the sort is stable and without atomics.
+// whole numbers counted from amid the scene; the sort is stable and without atomics. That costs
+// three floors for every photon within the radius, and sorting as many keys in every pass.
 #include "stability/photon_cloud.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,12 @@
 // Densities that agree with what is sampled (numerics 6): all strategies that can find the paths of
 // one length have the same mean, each by itself, unweighted.
 //
-// sample(), eval() and pdf() of a lobe are one function's business, and the density of a vertex is
-// stored with it (transport/vertex.h). That weights add up to 1 on every path is for the tests of
-// the twin, which weigh each strategy by brute force in double (tests/unit/audit_*).
+// Where sample() and pdf() are written apart, one of them forgets a lobe's share, the roulette or
+// the pick of the light, and weights that do not add up to 1 make a plausible picture. Here they
+// are one function's business, and a walk carries the density that it drew its direction with
+// (transport/walk.h): a number of each walk, and for each scattering that is weighed from both ends
+// one more evaluation, of the reverse density. That weights add up to 1 on every path is for the
+// tests of the twin, which weigh each strategy by brute force in double (tests/unit/audit_*).
 #include <fmt/format.h>
 
 #include <cmath>

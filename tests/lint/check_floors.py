@@ -16,7 +16,7 @@ HOST = {
     "explain": {"base", "image"},
     "bvh": {"base"},
     "cl": {"base"},
-    "scene": {"base", "image"},
+    "scene": {"base", "image", "shared"},
     "pack": {"base", "scene", "bvh", "shared", "geom"},
     "render": {"base", "image", "cl", "pack", "scene", "bvh", "shared"},
     "integrators": {"base", "pack", "render", "shared"},

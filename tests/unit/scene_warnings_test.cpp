@@ -10,6 +10,7 @@
 #include "scene/mesh_tools.h"
 #include "scene/needles.h"
 #include "scene/thin_glass.h"
+#include "scene/thin_shells.h"
 #include "scene_test_support.h"
 
 namespace pellucid {
@@ -103,6 +104,10 @@ TEST(SceneWarnings, ThinGlassIsMeasured) {
     Scene scene;
     scene.materials.emplace_back();
     scene.materials[0].kind = kind;
+    if (kind == MaterialKind::mix) {
+      scene.materials[0].parts.resize(2);
+      scene.materials[0].parts[1].kind = MaterialKind::dielectric;
+    }
     const BakedMesh box = bake_mesh(make_cube({0, 0, 0}, {4, thickness, 4}), {}, false);
     scene.shapes.push_back(shape_of(box.mesh));
     return thin_glass_warning(scene);
@@ -111,6 +116,83 @@ TEST(SceneWarnings, ThinGlassIsMeasured) {
   EXPECT_NE(pane(1e-6, MaterialKind::dielectric).find("1e-06 thick"), std::string::npos)
       << pane(1e-6, MaterialKind::dielectric);
   EXPECT_EQ(pane(1e-6, MaterialKind::diffuse), "") << "no glass";
+  EXPECT_NE(pane(1e-6, MaterialKind::mix), "") << "of glass and paint";
+}
+
+Scene balls(const std::vector<std::pair<Sphere, MaterialKind>>& list) {
+  Scene scene;
+  for (const auto& [sphere, kind] : list) {
+    scene.materials.emplace_back().kind = kind;
+    scene.shapes.push_back(shape_of(sphere));
+    scene.shapes.back().material = int(scene.materials.size() - 1);
+    scene.shapes.back().name = "ball " + std::to_string(scene.shapes.size());
+  }
+  return scene;
+}
+
+constexpr auto glass = MaterialKind::dielectric, paint = MaterialKind::diffuse,
+               film = MaterialKind::thin_dielectric;
+
+TEST(SceneWarnings, ShellsOfGlassAreMeasured) {
+  const auto shell = [](double thickness, const glm::dvec3& off = {}, double x = 0) {
+    return thin_shell_warning(balls({{Sphere{{x, 0, 0}, 1}, glass},
+                                     {Sphere{glm::dvec3(x, 0, 0) + off, 1 - thickness}, glass}}));
+  };
+  for (double thickness : {0.5, 1e-2, 1e-5}) EXPECT_EQ(shell(thickness), "") << thickness;
+  for (double thickness : {1e-6, 1e-7, 0.0}) EXPECT_NE(shell(thickness), "") << thickness;
+  EXPECT_NE(shell(1e-6).find("ball 1"), std::string::npos) << shell(1e-6);
+  EXPECT_NE(shell(1e-6).find("1e-06 apart"), std::string::npos) << shell(1e-6);
+  EXPECT_NE(shell(1e-6).find("keep them 3.3e-06 apart"), std::string::npos) << shell(1e-6);
+  EXPECT_NE(shell(1e-5, {0, 9e-6, 0}), "") << "near on one side";
+  EXPECT_NE(shell(0, {0, 1e-5, 0}), "") << "they intersect";
+  EXPECT_EQ(shell(1e-2, {1e-3, 0, 0}), "");
+  EXPECT_EQ(shell(1e-5, {}, 1), "");
+  EXPECT_NE(shell(1e-5, {}, 10), "") << "far from the middle points are less well known";
+}
+
+TEST(SceneWarnings, ShellsOfOtherMaterialsAreMeasured) {
+  const auto pair = [](MaterialKind outer, MaterialKind inner) {
+    return thin_shell_warning(
+        balls({{Sphere{{0, 0, 0}, 1}, outer}, {Sphere{{0, 0, 0}, 1 - 1e-7}, inner}}));
+  };
+  EXPECT_NE(pair(glass, paint), "") << "coated";
+  EXPECT_NE(pair(paint, glass), "");
+  EXPECT_NE(pair(film, paint), "");
+  EXPECT_EQ(pair(paint, paint), "") << "nothing comes between them";
+  Scene mixed = balls({{Sphere{{0, 0, 0}, 1}, MaterialKind::mix}, {Sphere{}, paint}});
+  EXPECT_EQ(thin_shell_warning(mixed), "");
+  mixed.materials[0].parts.resize(2);
+  mixed.materials[0].parts[1].kind = glass;
+  EXPECT_NE(thin_shell_warning(mixed), "");
+}
+
+TEST(SceneWarnings, BallsThatMeetInASpotAreNot) {
+  const auto beside = [](const Sphere& other) {
+    return thin_shell_warning(balls({{Sphere{{0, 0, 0}, 1}, glass}, {other, glass}}));
+  };
+  EXPECT_EQ(beside(Sphere{{2, 0, 0}, 1}), "") << "they touch";
+  EXPECT_EQ(beside(Sphere{{2 + 1e-7, 0, 0}, 1}), "");
+  EXPECT_EQ(beside(Sphere{{1.5, 0, 0}, 1}), "") << "they intersect";
+  EXPECT_EQ(beside(Sphere{{5, 0, 0}, 1 - 1e-7}), "") << "far apart";
+  EXPECT_EQ(beside(Sphere{{0, -0.1, 0}, 0.9}), "") << "one lies in the other";
+  EXPECT_EQ(beside(Sphere{{0, -0.6, 0}, 0.4}), "");
+  EXPECT_EQ(beside(Sphere{{0, 1, 0}, 1e-5}), "") << "a drop on it";
+}
+
+/// One pair among many is found, whatever the rows that the others stand in.
+TEST(SceneWarnings, OneShellAmongManyIsFound) {
+  std::vector<std::pair<Sphere, MaterialKind>> list;
+  constexpr int side = 20;
+  for (int x = 0; x < side; ++x)
+    for (int y = 0; y < side; ++y)
+      for (int z = 0; z < side; ++z)
+        list.emplace_back(Sphere{glm::dvec3(x, y, z) - 0.5 * side, 0.5}, glass);
+  EXPECT_EQ(thin_shell_warning(balls(list)), "");
+  for (std::size_t i : {std::size_t{0}, list.size() / 2, list.size() - 1}) {
+    auto with = list;
+    with.emplace_back(Sphere{list[i].first.center, 0.5 + 1e-6}, paint);
+    EXPECT_NE(thin_shell_warning(balls(with)), "") << i;
+  }
 }
 
 TEST(SceneWarnings, FarScenesAreCountedFromTheirMiddle) {
