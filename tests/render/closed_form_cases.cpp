@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 
+#include "closed_form_table.h"
 #include "render_harness.h"
 #include "stability/closed_forms.h"
 
@@ -13,32 +13,9 @@ namespace pellucid::test {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-const Methods all{"naive", "nee", "path", "reference", "bdpt"};
 const Methods next_event{"nee", "path", "bdpt"};  // where chance would need too many samples
 const Methods next_event_only{"nee", "path"};     // whose every sample of a delta light is alike
 const Methods by_chance{"naive", "reference"};    // blind to point and directional lights
-const Methods material_only{"naive", "nee", "path", "bdpt"};  // no roulette where the albedo is 1
-
-Rgb grey(double v) {
-  return Rgb(v);
-}
-
-/// The same by merging methods, too, where all light is direct: at their default radius. These take
-/// it from light samples or by chance.
-Case merged(Case c) {
-  c.methods.insert(c.methods.end(), {"sppm", "vcm"});
-  return c;
-}
-
-/// And by `bpm` where mirrors and glass are all there is, so that none merges: it merges direct
-/// light as well, of which a view as narrow as most here holds too little (footprint_test.cpp).
-Case merged_all(Case c) {
-  c = merged(std::move(c));
-  c.methods.emplace_back("bpm");
-  Methods& constant = c.targets.at(0).constant;
-  if (!constant.empty()) constant.insert(constant.end(), {"sppm", "bpm", "vcm"});
-  return c;
-}
 
 Case shipped(const std::string& scene, double value, const Methods& constant = {}) {
   return {"", scene_named(scene), {{grey(value), {}, constant}}, all, {}};
@@ -155,100 +132,6 @@ Case sun(double degrees) {
   return c;
 }
 
-/// CF17: a sheet of `material` at 60 degrees under the sky, from the front or from behind.
-Case sheet(const Material& material, const Rgb& value, bool behind = false) {
-  Case c{"", scene_named("sheet"), {{value, {}, {}}}, all, {}};
-  c.scene.materials.at(0) = material;
-  if (behind)
-    for (glm::uvec3& t : std::get<Mesh>(c.scene.shapes.at(0).geometry).triangles)
-      std::swap(t.y, t.z);
-  return c;
-}
-
-constexpr double sheet_cosine = 0.5;
-
-Case phong_sheet() {
-  Material m;
-  m.kind = MaterialKind::phong;
-  m.reflectance = {0.2, 0.3, 0.4};
-  m.specular = {0.6, 0.5, 0.3};
-  m.exponent = 12;
-  return sheet(m, m.reflectance + m.specular * phong_albedo(sheet_cosine, m.exponent));
-}
-
-Case metal_sheet(double alpha, const Rgb& eta, const Rgb& k) {
-  Material m;
-  m.kind = MaterialKind::conductor;
-  m.alpha = alpha;
-  m.eta = eta;
-  m.k = k;
-  Rgb value;
-  for (int c = 0; c < 3; ++c)
-    value[c] = alpha > 0 ? ggx_reflected(sheet_cosine, alpha, 1, eta[c], k[c])
-                         : fresnel(sheet_cosine, 1, eta[c], k[c]);
-  return sheet(m, value);
-}
-
-Case glass_sheet(double alpha, bool behind) {
-  Material m;
-  m.kind = MaterialKind::dielectric;
-  m.alpha = alpha;
-  const double near = behind ? 1.5 : 1.0, far = behind ? 1.0 : 1.5;
-  const double r = fresnel(sheet_cosine, near, far, 0), scale = near * near / (far * far);
-  const double value = alpha > 0 ? ggx_reflected(sheet_cosine, alpha, near, far, 0) +
-                                       ggx_transmitted(sheet_cosine, alpha, near, far)
-                                 : r + (1 - r) * scale;
-  Case c = sheet(m, grey(value), behind);
-  if (alpha == 0 && r == 1) c.targets[0].constant = material_only;  // total reflection
-  return c;
-}
-
-Case oren_nayar_sheet(double r) {
-  Material m;
-  m.kind = MaterialKind::oren_nayar;
-  m.reflectance = {0.3, 0.6, 0.9};
-  m.roughness = r;
-  Rgb value;
-  for (int c = 0; c < 3; ++c) value[c] = oren_nayar_albedo(sheet_cosine, m.reflectance[c], r);
-  return sheet(m, value);
-}
-
-/// R + T base, and the facets' reflection instead of R for a rough coat.
-std::pair<Material, Rgb> plastic_and_albedo(double alpha) {
-  Material m;
-  m.kind = MaterialKind::plastic;
-  m.reflectance = {0.1, 0.5, 0.9};
-  m.alpha = alpha;
-  const double r = fresnel(sheet_cosine, 1, m.ior, 0);
-  const double coat = alpha > 0 ? ggx_reflected(sheet_cosine, alpha, 1, m.ior, 0) : r;
-  Rgb value;
-  for (int c = 0; c < 3; ++c) value[c] = coat + (1 - r) * plastic_base(m.reflectance[c], m.ior);
-  return {m, value};
-}
-
-Case plastic_sheet(double alpha) {
-  const auto [m, value] = plastic_and_albedo(alpha);
-  return sheet(m, value);
-}
-
-/// Rough glass and a mix of plastic and mirror, in a mix of their own.
-Case mix_sheet() {
-  auto [plastic, plastic_value] = plastic_and_albedo(0);
-  Material mirror, glass, inner, outer;
-  mirror.kind = MaterialKind::mirror;
-  mirror.reflectance = {0.8, 0.4, 0.6};
-  glass.kind = MaterialKind::dielectric;
-  glass.alpha = 0.4;
-  inner.kind = outer.kind = MaterialKind::mix;
-  plastic.weight = 0.75, mirror.weight = 0.25;
-  inner.parts = {plastic, mirror};
-  glass.weight = 0.3, inner.weight = 0.7;
-  outer.parts = {glass, inner};
-  const double through = ggx_reflected(sheet_cosine, glass.alpha, 1, glass.ior, 0) +
-                         ggx_transmitted(sheet_cosine, glass.alpha, 1, glass.ior);
-  return sheet(outer, 0.3 * through + 0.7 * (0.75 * plastic_value + 0.25 * mirror.reflectance));
-}
-
 /// CF9 by a sheet without thickness in the place of the pane.
 Case thin_slab(int degrees) {
   Case c = shipped(degrees ? "slab-" + std::to_string(degrees) : "slab",
@@ -293,6 +176,13 @@ Case white_furnace(const std::string& kind, const Methods& constant) {
   return shipped("white-furnace-" + kind, 1, constant);
 }
 
+/// And paper, which walks from the sky reach as well.
+Case white_diffuse() {
+  Case c = merged(white_furnace("diffuse", {"naive"}));
+  c.methods.emplace_back("light");
+  return c;
+}
+
 /// CF3 on metal that reflects all: extinction without absorption.
 Case white_metal() {
   Case c = shipped("ball", 1, material_only);
@@ -303,65 +193,47 @@ Case white_metal() {
   return c;
 }
 
-using Table = std::vector<std::pair<std::string, std::function<Case()>>>;
-
-Table sheets() {
-  const Rgb gold_eta(0.143, 0.375, 1.442), gold_k(3.983, 2.386, 1.603);
-  return {{"cf17_oren_nayar", [] { return merged(oren_nayar_sheet(0.4)); }},
-          {"cf17_oren_nayar_roughest", [] { return merged(oren_nayar_sheet(1)); }},
-          {"cf17_plastic", [] { return merged(plastic_sheet(0)); }},
-          {"cf17_rough_plastic", [] { return merged(plastic_sheet(0.4)); }},
-          {"cf17_mix", [] { return merged(mix_sheet()); }},
-          {"cf17_phong", [] { return merged(phong_sheet()); }},
-          {"cf17_smooth_metal", [=] { return merged_all(metal_sheet(0, gold_eta, gold_k)); }},
-          {"cf17_rough_metal", [=] { return merged(metal_sheet(0.4, gold_eta, gold_k)); }},
-          {"cf17_rough_mirror", [] { return merged(metal_sheet(0.5, Rgb(0.0), Rgb(1.0))); }},
-          {"cf17_glass_front", [] { return merged_all(glass_sheet(0, false)); }},
-          {"cf17_glass_behind", [] { return merged_all(glass_sheet(0, true)); }},
-          {"cf17_rough_glass_front", [] { return merged(glass_sheet(0.4, false)); }},
-          {"cf17_rough_glass_behind", [] { return merged(glass_sheet(0.4, true)); }}};
-}
-
 Table table() {
   Table t = sheets();
-  t.insert(t.end(),
-           {{"cf1_furnace", furnace},
-            {"cf2_point_in_sphere", point_in_sphere},
-            {"cf3_white_diffuse", [] { return merged(white_furnace("diffuse", {"naive"})); }},
-            {"cf3_white_mirror", [] { return merged_all(white_furnace("mirror", material_only)); }},
-            {"cf3_white_glass", [] { return merged_all(white_furnace("glass", material_only)); }},
-            {"cf3_white_metal", [] { return merged_all(white_metal()); }},
-            {"cf4_centre", [] { return merged(shipped("rectangle-light", 0.554126)); }},
-            {"cf4_edge", [] { return merged(shipped("rectangle-light-edge", 0.334750)); }},
-            {"cf4_tilted_30", [] { return merged(rectangle_light(30, 1, all)); }},
-            {"cf4_two_sided", [] { return merged(two_sided_light()); }},
-            {"cf4_tilted_89_small", [] { return rectangle_light(89, 0.01, next_event); }},
-            {"cf4_small", [] { return rectangle_light(0, 1e-4, next_event); }},
-            {"cf5_below", [] { return merged(shipped("sphere-light", 1)); }},
-            {"cf5_aside", [] { return merged(shipped("sphere-light-offset", 16 * 0.0447214)); }},
-            {"cf6_disc", [] { return merged(disc_light()); }},
-            {"cf6_disk_light", [] { return merged(shipped("disk-light", 1)); }},
-            {"spot_middle", [] { return merged(spot_on_floor(0)); }},
-            {"spot_falloff", [] { return merged(spot_on_floor(25)); }},
-            {"spot_power", spot_in_sphere},
-            {"cf7_floor", [] { return plates(false); }},
-            {"cf7_ceiling", [] { return plates(true); }},
-            {"cf8_shell", shell},
-            {"cf13_sky", [] { return merged(shipped("plane-sky", 1)); }},
-            {"cf13_half_sky", [] { return merged(shipped("plane-half-sky", 1)); }},
-            {"cf13_sun_0", [] { return merged(sun(0)); }},
-            {"cf13_sun_60", [] { return merged(sun(60)); }},
-            {"cf13_sun_89", [] { return merged(sun(89)); }},
-            {"cf15_inside_glass", [] { return merged_all(shipped("inside-glass", 2.25)); }}});
+  t.insert(
+      t.end(),
+      {{"cf1_furnace", furnace},
+       {"cf2_point_in_sphere", point_in_sphere},
+       {"cf3_white_diffuse", white_diffuse},
+       {"cf3_white_mirror", [] { return by_every_method(white_furnace("mirror", material_only)); }},
+       {"cf3_white_glass", [] { return by_every_method(white_furnace("glass", material_only)); }},
+       {"cf3_white_metal", [] { return by_every_method(white_metal()); }},
+       {"cf4_centre", [] { return merged(shipped("rectangle-light", 0.554126)); }},
+       {"cf4_edge", [] { return merged(shipped("rectangle-light-edge", 0.334750)); }},
+       {"cf4_tilted_30", [] { return merged(rectangle_light(30, 1, all)); }},
+       {"cf4_two_sided", [] { return merged(two_sided_light()); }},
+       {"cf4_tilted_89_small", [] { return rectangle_light(89, 0.01, next_event); }},
+       {"cf4_small", [] { return rectangle_light(0, 1e-4, next_event); }},
+       {"cf5_below", [] { return merged(shipped("sphere-light", 1)); }},
+       {"cf5_aside", [] { return merged(shipped("sphere-light-offset", 16 * 0.0447214)); }},
+       {"cf6_disc", [] { return merged(disc_light()); }},
+       {"cf6_disk_light", [] { return merged(shipped("disk-light", 1)); }},
+       {"spot_middle", [] { return merged(spot_on_floor(0)); }},
+       {"spot_falloff", [] { return merged(spot_on_floor(25)); }},
+       {"spot_power", spot_in_sphere},
+       {"cf7_floor", [] { return plates(false); }},
+       {"cf7_ceiling", [] { return plates(true); }},
+       {"cf8_shell", shell},
+       {"cf13_sky", [] { return merged(shipped("plane-sky", 1)); }},
+       {"cf13_half_sky", [] { return merged(shipped("plane-half-sky", 1)); }},
+       {"cf13_sun_0", [] { return merged(sun(0)); }},
+       {"cf13_sun_60", [] { return merged(sun(60)); }},
+       {"cf13_sun_89", [] { return merged(sun(89)); }},
+       {"cf15_inside_glass", [] { return by_every_method(shipped("inside-glass", 2.25)); }}});
   for (int degrees : {0, 45, 60, 80}) {
     t.emplace_back("cf9_thin_" + std::to_string(degrees),
-                   [=] { return merged_all(thin_slab(degrees)); });
+                   [=] { return by_every_method(thin_slab(degrees)); });
     t.emplace_back("cf9_slab_" + std::to_string(degrees), [=] {
       const std::string name = degrees ? "slab-" + std::to_string(degrees) : "slab";
       // Light that enters a pane by its edges never leaves it again.
       Case c = shipped(name, pane_transmission(degrees, 1.5));
       c.targets.front().max_depth = 1000;
-      return merged_all(c);
+      return by_every_method(c);
     });
   }
   for (int e = 1; e <= 5; ++e) {

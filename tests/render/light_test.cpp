@@ -1,6 +1,6 @@
 // What walks from the lights alone can get wrong: the camera's importance over the picture (CF14),
-// light through glass that no other method sees (CF10), both ends of a path (CF16), pixel filters
-// of splats, and the number of paths.
+// light through glass that no other method sees (CF10), pixel filters of splats, and the number of
+// paths. Both ends of a path (CF16): reciprocity_test.cpp.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -178,27 +178,6 @@ Runs runs_of(const Scene& scene, Build build, std::uint64_t seed, double relativ
     runs.add(renderer.render(run));
   }
   return runs;
-}
-
-// CF16: patches A and B, light from one to the other; the mean of the picture of either is the
-// same, by any method.
-TEST(Light, both_ends_of_paths_can_be_swapped) {
-  // Two such errors, 4.8 sigma of Student and an error of 3 fit into the tolerance.
-  const double relative = tier_tolerance() / 11;
-  const auto mean = [&](const char* scene, const char* method, std::uint64_t seed) {
-    return runs_of(scene_named(scene), {method, 24, 24}, seed, relative).image;
-  };
-  const auto known = mean("swap-a", "bdpt", 100);
-  std::uint64_t seed = 200;
-  for (const char* method : from_light) {
-    const auto swapped = mean("swap-b", method, seed);
-    for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_EQ(
-          welch(swapped[c], known[c], family_alpha / 6, tier_tolerance() * estimate(known[c]).mean),
-          "")
-          << method << ", channel " << c;
-    seed += 100;
-  }
 }
 
 /// The picture's border as a tile of its own: light that a filter brings in from outside belongs

@@ -3,10 +3,10 @@
 set(render_dir ${CMAKE_SOURCE_DIR}/tests/render)
 set(render_sources ${CMAKE_SOURCE_DIR}/tests/support/statistics.cpp
     ${CMAKE_SOURCE_DIR}/tests/support/facets.cpp)
-foreach(name render_harness closed_form_cases closed_form_test equality equality_test
+foreach(name render_harness closed_form_cases closed_form_sheets closed_form_test equality equality_test
              depth_cut_test error_test exact_test footprint_test furnace_merge_test
              passes_test rigid_test texture_test golden_test filter_test aov_test layers_test
-             light_test merging_test photons_test replay_test study_test twin_device_test
+             light_test merging_test photons_test reciprocity_test replay_test study_test twin_device_test
              vertices_test)
   list(APPEND render_sources ${render_dir}/${name}.cpp)
 endforeach()

@@ -32,8 +32,10 @@ TABLE = [("pocl", mode, group, threads)
     ("rusticl", "fast", 1, "n"), ("rusticl", "fast", 256, 1)]
 # llvmpipe splits a group among lanes of its own and allows 32 work-items for kernels of this size.
 UNSUPPORTED = {("rusticl", group): f"a work-group of {group} is more than the 32" for group in (64, 256)}
-# Of means: few of 16384 paths go another way where a product and a sum are rounded once (1e-7 was seen).
-ENERGY = 1e-3
+# Some ten times the worst seen (4e-7 and 8e-7, `light` and fast on PoCL). A product and a sum rounded once sends no
+# path here another way, which would be 6e-5 of all.
+ENERGY = 4e-6  # of means
+PIXELS = 8e-6  # mean over them
 
 
 def render(cell, method, scene, name):
@@ -54,10 +56,11 @@ def render(cell, method, scene, name):
     return code, err
 
 
-def energy_off(a, b):
-    """The largest relative difference of a channel's mean."""
+def differences(a, b):
+    """The largest relative difference of a channel's mean, and the mean one of pixels."""
     _, out, _ = run("compare", a, b, "--json", "-")
-    return abs(json.loads(out)["worst_channel_energy"] - 1)
+    found = json.loads(out)
+    return abs(found["worst_channel_energy"] - 1), found["smape"]
 
 
 def check_cells(method, scene):
@@ -83,9 +86,10 @@ def check_cells(method, scene):
             if mode == "strict":
                 check(same_pixels(name, reference), f"{what} has the bits of PoCL")
             else:
-                off = energy_off(name, reference)
-                print(f"{what}: energy off by {off:.2g}")
-                check(off <= ENERGY, f"{what} has the energy of strict", off)
+                energy, pixels = differences(name, reference)
+                print(f"{what}: energy off by {energy:.2g}, pixels by {pixels:.2g}")
+                check(energy <= ENERGY, f"{what} has the energy of strict", energy)
+                check(pixels <= PIXELS, f"{what} has the pixels of strict", pixels)
         check(read_bytes(name) == read_bytes(first[mode]), f"{what} has the bits of the other cells of its mode")
 
 

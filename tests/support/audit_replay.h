@@ -6,7 +6,8 @@
 
 namespace TWIN_NAMESPACE {
 
-/// The path with edges exactly between its points: rays start a little beside them.
+/// The path with edges exactly between its points: rays start a little beside them. Photons keep
+/// directions as floats; where there are any, all strategies are judged by these.
 inline FullPath straightened(const TwinScene& twin, FullPath path) {
   const bool at_infinity = PathDensities(twin, {}, path).light_at_infinity();
   const std::size_t k = path.nodes.size();
@@ -15,6 +16,8 @@ inline FullPath straightened(const TwinScene& twin, FullPath path) {
     const real3 b = i == k ? load3(twin.packed.camera.origin) : path.nodes[i].surface.p;
     path.edges[i] = normalize3(b - a);
   }
+  if (merges)
+    for (real3& edge : path.edges) edge = REAL3(float(edge.x), float(edge.y), float(edge.z));
   return path;
 }
 
