@@ -130,7 +130,8 @@ void RenderFlags::declare(CLI::App& app) {
          "what kernels hold: auto (what the scene needs), all, or a list like +phong,+disks")
       ->type_name("auto|all|LIST");
   app.add_option("--work-group", group,
-                 "work-items per group; changes speed, never the image (default 64)")
+                 "work-items per group; changes speed, never the image, but for the last bits\n"
+                 "with --float fast (default 64)")
       ->check(CLI::Range(1, 4096));
   app.add_option("--memory", memory,
                  "most device memory to use, e.g. 2G; larger pictures are rendered in bands")

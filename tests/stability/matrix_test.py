@@ -4,7 +4,8 @@
 Usage: matrix_test.py path/to/pellucid pocl|oclgrind|rusticl   (exit 0: all cells hold; 77: no such device here)
 Within a device and a mode the picture has the same bits whatever groups and threads. `strict` has the same bits
 on all devices, too: kernels use no arithmetic that OpenCL leaves open. `mad` and `fast` have the energy of
-`strict` by the same random numbers. A cell that a device cannot have is refused, and by what words stands here.
+`strict` by the same random numbers. In `fast` the compiler may reorder sums, and does so otherwise for other
+groups (PoCL: `bdpt` and `vcm` in groups of 1): there each group has its bits with any number of threads. A cell that a device cannot have is refused, and by what words stands here.
 """
 import itertools
 import json
@@ -25,7 +26,7 @@ FACTORS = {"device": ("pocl", "oclgrind", "rusticl"), "mode": ("strict", "mad", 
 # Devices that are simulated or take long to compile have fewer cells, still all pairs with what they are.
 TABLE = [("pocl", mode, group, threads)
          for (i, mode), (k, group) in itertools.product(enumerate(FACTORS["mode"]), enumerate(FACTORS["group"]))
-         for threads in FACTORS["threads"][(i + k) % 2:][:1]] + [
+         for threads in (FACTORS["threads"] if mode == "fast" else FACTORS["threads"][(i + k) % 2:][:1])] + [
     ("oclgrind", "strict", 1, 1), ("oclgrind", "strict", 256, "n"), ("oclgrind", "mad", 8, "n"),
     ("oclgrind", "mad", 64, 1), ("oclgrind", "fast", 64, "n"), ("oclgrind", "fast", 1, 1),
     ("rusticl", "strict", 1, 1), ("rusticl", "strict", 8, "n"), ("rusticl", "mad", 8, 1), ("rusticl", "mad", 64, "n"),
@@ -68,12 +69,13 @@ def check_cells(method, scene):
     check(render(("pocl", "strict", 64, "n"), method, scene, reference)[0] == 0, f"the reference by {method}")
     first = {}
     for cell in TABLE:
-        device, mode, group, _ = cell
+        device, mode, group, threads = cell
         if device != DEVICE:
             continue
         what = f"{method} on {scene}: {cell}"
         refused = UNSUPPORTED.get((device, group))
-        name = f"{mode}-{group}.exr"
+        name = f"{mode}-{group}-{threads}.exr"
+        alike = (mode, group) if mode == "fast" else mode
         code, err = render(cell, method, scene, name)
         if refused:
             check(code == 4 and refused in err, f"{what} is refused", code, err)
@@ -81,8 +83,8 @@ def check_cells(method, scene):
         check(code == 0, what, code, err)
         if code:
             continue
-        if mode not in first:
-            first[mode] = name
+        if alike not in first:
+            first[alike] = name
             if mode == "strict":
                 check(same_pixels(name, reference), f"{what} has the bits of PoCL")
             else:
@@ -90,7 +92,7 @@ def check_cells(method, scene):
                 print(f"{what}: energy off by {energy:.2g}, pixels by {pixels:.2g}")
                 check(energy <= ENERGY, f"{what} has the energy of strict", energy)
                 check(pixels <= PIXELS, f"{what} has the pixels of strict", pixels)
-        check(read_bytes(name) == read_bytes(first[mode]), f"{what} has the bits of the other cells of its mode")
+        check(read_bytes(name) == read_bytes(first[alike]), f"{what} has the bits of the cells that are like it")
 
 
 def test_every_pair_is_in_the_table():
