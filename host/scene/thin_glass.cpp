@@ -25,7 +25,7 @@ struct Thickness {
   double is = 0, needed = 0;
 };
 
-/// Twice what rays start off a face by at most (triangle_point in geom/surface.h), for a start is
+/// Twice what rays start off a face by at most (geom/triangle_point.h), for a start is
 /// off its plane by as much again when all errors add up. Kernels count the extents of two edges.
 double least_thickness(const glm::dvec3& n, const glm::dvec3& reach, double extent) {
   const double bound = double(POINT_ERROR_ULPS) * glm::dot(glm::abs(n), reach) +

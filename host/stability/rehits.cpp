@@ -4,7 +4,7 @@
 // A point of a triangle is off its plane by some ulps of its coordinates, so half of all rays would
 // start behind it; a fixed nudge is too small far away and too large close up. Here the point is
 // rebuilt from its barycentrics, its error bounded and the start moved by that bound along the
-// geometric normal (geom/surface.h): some 20 operations and three vertices per hit.
+// geometric normal (geom/triangle_point.h): some 20 operations and three vertices per hit.
 #include <fmt/format.h>
 
 #include <algorithm>
