@@ -5,7 +5,8 @@ Usage: matrix_test.py path/to/pellucid pocl|oclgrind|rusticl   (exit 0: all cell
 Within a device and a mode the picture has the same bits whatever groups and threads. `strict` has the same bits
 on all devices, too: kernels use no arithmetic that OpenCL leaves open. `mad` and `fast` have the energy of
 `strict` by the same random numbers. In `fast` the compiler may reorder sums, and does so otherwise for other
-groups (PoCL: `bdpt` and `vcm` in groups of 1): there each group has its bits with any number of threads. A cell that a device cannot have is refused, and by what words stands here.
+groups (PoCL: `bdpt` and `vcm` in groups of 1): there each group has its bits with any number of threads. A cell
+that a device cannot have is refused, and by what words stands here.
 """
 import itertools
 import json
