@@ -28,12 +28,13 @@ Build fixed_radius(const char* method, double radius, int size, uint light_paths
   return b;
 }
 
-/// Means of the picture in each of `runs` renders of so many passes.
+/// Means of the picture in each of `runs` renders of so many passes, more in the full tier.
 Runs runs_of(const Scene& scene, const Build& build, std::uint64_t spp, uint max_depth) {
   Renderer renderer(scene, build);
   Runs out(build.width);
+  const auto passes = std::uint64_t(double(spp) * tier_effort());
   for (int k = 0; k < runs; ++k)
-    out.add(renderer.render({spp, std::uint64_t(900 + k), max_depth, MIS_BALANCE}));
+    out.add(renderer.render({passes, std::uint64_t(900 + k), max_depth, MIS_BALANCE}));
   return out;
 }
 
@@ -119,6 +120,7 @@ Scene reflected_caustic(MaterialKind kind) {
   spot.inner = 0.12, spot.outer = 0.13;  // a radius of 0.22 on the floor
   scene.camera.origin = disc_eye;
   scene.camera.forward = disc_axis, scene.camera.right = {0, 1, 0};
+  scene.camera.up = glm::cross(scene.camera.right, disc_axis);
   scene.camera.fov = 2 * std::atan(disc_half) * 180 / pi;
   return scene;
 }

@@ -19,7 +19,10 @@ pellucid_script_test(threads render ${render_dir}/threads_test.py $<TARGET_FILE:
 
 add_test(NAME slow.render_full
          COMMAND render_tests --gtest_filter=*ClosedForm*:*Equality*:*Rigid*:*Golden*:*TwinDevice*)
+# 34 minutes where seven others were at work.
+add_test(NAME slow.render_full_merging
+         COMMAND render_tests --gtest_filter=Merging*:FurnaceMerge*:Sobol.*)
 # How often --error keeps its word: 200 renders of each method and scene; prints its figures.
 add_test(NAME slow.error_coverage COMMAND render_tests --gtest_filter=ErrorCoverage.*)
-set_tests_properties(slow.render_full slow.error_coverage PROPERTIES LABELS slow TIMEOUT 3600
+set_tests_properties(slow.render_full slow.render_full_merging slow.error_coverage PROPERTIES LABELS slow TIMEOUT 3600
                      ENVIRONMENT PELLUCID_TIER=full)
