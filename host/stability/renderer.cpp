@@ -23,7 +23,7 @@ PackedScene pack(const Lab& lab, Scene scene, const Build& build) {
   PackedScene packed = pack_scene(scene, {lanes});
   if (!build.roulette)
     for (::Material& m : packed.materials)
-      if (m.survive > 0) m.survive = 1;
+      if (m.survive > 0) m.survive = m.untextured = 1;
   return packed;
 }
 

@@ -38,7 +38,7 @@ struct Build {
       {};  ///< most bytes of the device beyond what is planned at first
   FloatMode float_mode = FloatMode::strict;
   std::size_t launch_items = 0;  ///< work-items of a launch; 0: as many as are quick enough
-  bool roulette = true;          ///< false: walks go on wherever anything is scattered
+  bool roulette = true;  ///< false: walks go on wherever anything is scattered, textured or not
 };
 
 /// Mean and variance of that mean.
