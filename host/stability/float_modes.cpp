@@ -7,7 +7,6 @@
 // all modes (EXACT_BEGIN), no infinity is computed with, and NaN is told by its bits.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
